@@ -1,0 +1,8 @@
+#pragma once
+/// @file
+/// The one assertion of the library, for slips of its own; off under NDEBUG. Data from outside is
+/// checked by `require` (core/require.hpp) instead, always.
+
+#include <cassert>
+
+#define WHEELRAIL_ASSERT(condition) assert(condition)

@@ -1,0 +1,57 @@
+#pragma once
+/// @file
+/// Checks of data from outside, at construction: an error names the thing, its value and the rule
+/// that it broke. May include: core, std.
+
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <wheelrail/core/scalar.hpp>
+
+namespace wheelrail::detail {
+
+/// @p value for an error message; scalars that are no floating-point type have no text.
+template <Real T>
+[[nodiscard]] inline std::string to_text(const T& value) {
+  if constexpr (std::is_floating_point_v<T>) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.9Lg", static_cast<long double>(value));
+    return text;
+  } else {
+    return "(a value without text)";
+  }
+}
+
+/// @throws std::invalid_argument "<name> is <value>, but must be <rule>" unless @p holds.
+template <Real T>
+inline void require(bool holds, const std::string& name, const T& value, const std::string& rule) {
+  if (!holds) {
+    throw std::invalid_argument(name + " is " + to_text(value) + ", but must be " + rule);
+  }
+}
+
+/// @throws std::invalid_argument with @p message unless @p holds.
+inline void require(bool holds, const std::string& message) {
+  if (!holds) throw std::invalid_argument(message);
+}
+
+/// @throws std::invalid_argument unless @p value is finite.
+template <Real T>
+inline void require_finite(const std::string& name, const T& value) {
+  require(is_finite(value), name, value, "finite");
+}
+
+/// @throws std::invalid_argument unless @p value is finite and > 0.
+template <Real T>
+inline void require_positive(const std::string& name, const T& value, const std::string& unit) {
+  require(is_finite(value) && T(0) < value, name, value, "finite and > 0 " + unit);
+}
+
+/// @throws std::invalid_argument unless @p value is finite and >= 0.
+template <Real T>
+inline void require_not_negative(const std::string& name, const T& value, const std::string& unit) {
+  require(is_finite(value) && !(value < T(0)), name, value, "finite and >= 0 " + unit);
+}
+
+}  // namespace wheelrail::detail

@@ -1,0 +1,158 @@
+#pragma once
+/// @file
+/// Profiles as standards give them: polynomials and circular arcs, one after the other.
+/// May include: core, numerics, profile.
+
+#include <array>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <vector>
+#include <wheelrail/core/require.hpp>
+#include <wheelrail/profile/profile.hpp>
+
+namespace wheelrail {
+
+/// One smooth piece over [lower, upper] [m]: a polynomial of degree up to 8 or a circular arc.
+template <Real T>
+class ProfilePiece {
+ public:
+  static constexpr int maximum_degree = 8;
+
+  /// value = sum_k coefficients[k] x^k, x = (lateral - origin) / scale.
+  /// @param coefficients [m], lowest order first, 1 to 9 of them.
+  /// @throws std::invalid_argument on an empty interval, a scale <= 0, a bad number of
+  ///   coefficients or one that is not finite.
+  [[nodiscard]] static ProfilePiece polynomial(const T& lower, const T& upper, const T& origin,
+                                               const T& scale, std::span<const T> coefficients) {
+    ProfilePiece piece(lower, upper);
+    detail::require_positive("polynomial piece: scale", scale, "[m]");
+    detail::require_finite("polynomial piece: origin", origin);
+    detail::require(!coefficients.empty() && coefficients.size() <= piece.coefficients_.size(),
+                    "polynomial piece: there are " + std::to_string(coefficients.size()) +
+                        " coefficients, but there must be 1 to 9");
+    for (std::size_t k = 0; k < coefficients.size(); ++k) {
+      detail::require_finite("polynomial piece: coefficient " + std::to_string(k),
+                             coefficients[k]);
+      piece.coefficients_[k] = coefficients[k];
+    }
+    piece.degree_ = static_cast<int>(coefficients.size()) - 1;
+    piece.origin_ = origin;
+    piece.inverse_scale_ = T(1) / scale;
+    return piece;
+  }
+
+  /// A straight line through (lateral, value) [m] with @p slope [-].
+  [[nodiscard]] static ProfilePiece line(const T& lower, const T& upper, const T& lateral,
+                                         const T& value, const T& slope) {
+    const std::array<T, 2> coefficients{value, slope};
+    return polynomial(lower, upper, lateral, T(1), coefficients);
+  }
+
+  /// value = centre_value + sqrt(radius^2 - (lateral - centre_lateral)^2), the body's convex arc,
+  /// or with a minus sign, the concave one, where @p convex is false. All [m].
+  /// @throws std::invalid_argument unless radius > 0 and the interval lies inside the circle.
+  [[nodiscard]] static ProfilePiece arc(const T& lower, const T& upper, const T& centre_lateral,
+                                        const T& centre_value, const T& radius, bool convex) {
+    ProfilePiece piece(lower, upper);
+    detail::require_positive("arc piece: radius", radius, "[m]");
+    detail::require_finite("arc piece: centre value", centre_value);
+    detail::require(centre_lateral - radius < lower, "arc piece: lower end", lower,
+                    "greater than the centre less the radius [m]");
+    detail::require(upper < centre_lateral + radius, "arc piece: upper end", upper,
+                    "less than the centre plus the radius [m]");
+    piece.is_arc_ = true;
+    piece.origin_ = centre_lateral;
+    piece.coefficients_[0] = centre_value;
+    piece.coefficients_[1] = radius * radius;
+    piece.sign_ = convex ? T(1) : T(-1);
+    return piece;
+  }
+
+  [[nodiscard]] const T& lower() const { return lower_; }
+  [[nodiscard]] const T& upper() const { return upper_; }
+
+  /// @pre for an arc, @p lateral lies inside its circle.
+  [[nodiscard]] ProfilePoint<T> evaluate(const T& lateral) const {
+    using std::sqrt;
+    if (is_arc_) {
+      const T x = lateral - origin_;
+      const T height = sqrt(T(coefficients_[1] - x * x));
+      const T slope = -sign_ * x / height;
+      // f'' = -sign R^2 / h^3 and 1 + f'^2 = R^2 / h^2
+      return {coefficients_[0] + sign_ * height, slope, -sign_ * (T(1) + slope * slope) / height};
+    }
+    const T x = (lateral - origin_) * inverse_scale_;
+    T value = coefficients_[static_cast<std::size_t>(degree_)];
+    T slope = T(0);
+    T half_second = T(0);
+    for (int k = degree_ - 1; k >= 0; --k) {
+      half_second = half_second * x + slope;
+      slope = slope * x + value;
+      value = value * x + coefficients_[static_cast<std::size_t>(k)];
+    }
+    return {value, slope * inverse_scale_,
+            T(2) * half_second * inverse_scale_ * inverse_scale_};
+  }
+
+ private:
+  ProfilePiece(const T& lower, const T& upper) : lower_(lower), upper_(upper) {
+    detail::require_finite("profile piece: lower end", lower);
+    detail::require_finite("profile piece: upper end", upper);
+    detail::require(lower < upper, "profile piece: lower end", lower,
+                    "less than its upper end, " + detail::to_text(upper) + " m");
+  }
+
+  T lower_;
+  T upper_;
+  T origin_{};
+  T inverse_scale_ = T(1);
+  T sign_ = T(1);
+  // A polynomial's coefficients, or an arc's centre value and squared radius.
+  std::array<T, maximum_degree + 1> coefficients_{};
+  int degree_ = 0;
+  bool is_arc_ = false;
+};
+
+/// A profile of polynomials and arcs. Valid for good once constructed.
+/// @note Evaluation does not allocate.
+template <Real T>
+class PiecewiseProfile {
+ public:
+  using Scalar = T;
+
+  /// @param pieces from the flange (or gauge) side to the field side.
+  /// @throws std::invalid_argument when there are none, or where piece i does not begin where piece
+  ///   i-1 ends.
+  explicit PiecewiseProfile(std::vector<ProfilePiece<T>> pieces) : pieces_(std::move(pieces)) {
+    detail::require(!pieces_.empty(), "piecewise profile: there are no pieces");
+    for (std::size_t i = 1; i < pieces_.size(); ++i) {
+      detail::require(pieces_[i].lower() == pieces_[i - 1].upper(),
+                      "piecewise profile: lower end of piece " + std::to_string(i),
+                      pieces_[i].lower(),
+                      "the upper end of piece " + std::to_string(i - 1) + ", " +
+                          detail::to_text(pieces_[i - 1].upper()) + " m");
+    }
+  }
+
+  [[nodiscard]] T lower() const { return pieces_.front().lower(); }
+  [[nodiscard]] T upper() const { return pieces_.back().upper(); }
+  [[nodiscard]] int piece_count() const { return static_cast<int>(pieces_.size()); }
+  [[nodiscard]] T joint(int i) const {
+    return i < piece_count() ? pieces_[static_cast<std::size_t>(i)].lower() : upper();
+  }
+
+  /// @pre lower() <= lateral <= upper()
+  [[nodiscard]] ProfilePoint<T> evaluate(const T& lateral) const {
+    return evaluate(piece_of(*this, lateral), lateral);
+  }
+  /// @pre 0 <= piece < piece_count(), lateral in that piece
+  [[nodiscard]] ProfilePoint<T> evaluate(int piece, const T& lateral) const {
+    return pieces_[static_cast<std::size_t>(piece)].evaluate(lateral);
+  }
+
+ private:
+  std::vector<ProfilePiece<T>> pieces_;
+};
+
+}  // namespace wheelrail

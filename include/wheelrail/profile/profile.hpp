@@ -1,0 +1,57 @@
+#pragma once
+/// @file
+/// What a profile is: a curve value(lateral) whose outward direction is +value, made of smooth
+/// pieces. For a wheel the value is F, added to the nominal radius; for a rail it is the height.
+/// Paper §2.2 and equation (14). May include: core, numerics.
+
+#include <concepts>
+#include <wheelrail/core/scalar.hpp>
+
+namespace wheelrail {
+
+/// A point of a profile, all from one evaluation.
+template <Real T>
+struct ProfilePoint {
+  T value{};              ///< [m], outward: wheel radius above nominal, or rail height
+  T slope{};              ///< d value / d lateral [-]
+  T second_derivative{};  ///< d2 value / d lateral2 [1/m]; negative where the body is convex
+};
+
+/// A profile over [lower(), upper()], lateral coordinate [m] towards the field side. Piece i spans
+/// [joint(i), joint(i+1)], joint(0) == lower(), joint(piece_count()) == upper(); inside a piece the
+/// value is C2. At a joint, evaluate(i, .) gives piece i's own limit and evaluate(.) the limit from
+/// the field side. Evaluation outside [lower(), upper()] is not defined.
+template <class P>
+concept Profile = Real<typename P::Scalar> &&
+                  requires(const P profile, const typename P::Scalar lateral, const int piece) {
+                    { profile.lower() } -> std::convertible_to<typename P::Scalar>;
+                    { profile.upper() } -> std::convertible_to<typename P::Scalar>;
+                    { profile.piece_count() } -> std::convertible_to<int>;
+                    { profile.joint(piece) } -> std::convertible_to<typename P::Scalar>;
+                    {
+                      profile.evaluate(lateral)
+                    } -> std::same_as<ProfilePoint<typename P::Scalar>>;
+                    {
+                      profile.evaluate(piece, lateral)
+                    } -> std::same_as<ProfilePoint<typename P::Scalar>>;
+                  };
+
+/// The curvature [1/m] of a profile at @p point, positive where the body is convex: (17), (26).
+template <Real T>
+[[nodiscard]] T curvature(const ProfilePoint<T>& point) {
+  using std::sqrt;
+  const T squared_length = T(1) + point.slope * point.slope;
+  return -point.second_derivative / (squared_length * sqrt(squared_length));
+}
+
+/// The piece that holds @p lateral; a joint belongs to the piece on its field side.
+/// @note A profile has few pieces: a linear search beats a binary one.
+template <class P>
+[[nodiscard]] int piece_of(const P& profile, const typename P::Scalar& lateral) {
+  int piece = 0;
+  const int last = profile.piece_count() - 1;
+  while (piece < last && !(lateral < profile.joint(piece + 1))) ++piece;
+  return piece;
+}
+
+}  // namespace wheelrail
