@@ -20,8 +20,8 @@ struct ValueAndSlope {
 
 template <Real T>
 struct RootOptions {
-  /// Stop when the bracket or the last step is at most this wide [unit of x]; 0 means a few
-  /// rounding units of x.
+  /// Stop when the bracket or the last step is at most this wide [unit of x]; 0 means two rounding
+  /// units of x, which a multiple root at x = 0 never meets.
   T step_tolerance = T(0);
   /// Stop when |f(x)| <= this [unit of f].
   T residual_tolerance = T(0);
@@ -30,6 +30,7 @@ struct RootOptions {
 };
 
 /// Invariant: status == converged implies that `position` lies in the bracket that was given.
+/// `residual` is f at the last point that was evaluated, which the last step may have left.
 template <Real T>
 struct RootResult {
   T position{};
@@ -50,7 +51,9 @@ template <Real T>
 /// A root of f in [lower, upper] by Newton's method, bisecting whenever a step would leave the
 /// bracket or would not halve it fast enough.
 /// @param f callable: T -> ValueAndSlope<T>; continuous, of opposite signs at the two ends. Several
-///   roots: one of them is found. The slope may be wrong or zero: it costs iterations, no safety.
+///   roots: one of them is found. A slope that is zero, not finite or of the wrong
+///   sign costs iterations only; one too large by a factor k may end up to k tolerances from the
+///   root.
 /// @param start the first iterate; clamped into the bracket.
 /// @param value_lower, value_upper f at the ends.
 /// @return the root, to the step tolerance; quadratic convergence near a simple root.

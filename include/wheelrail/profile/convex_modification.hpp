@@ -29,7 +29,7 @@ class ConvexModification {
   };
 
   /// @throws std::invalid_argument when the tangents at the ends of a concave zone do not meet
-  ///   inside it.
+  ///   inside it, or lie outside the profile.
   explicit ConvexModification(P original) : original_(std::move(original)) {
     for (const auto& zone : concave_intervals(original_)) cut(zone);
     build_pieces();
@@ -70,16 +70,31 @@ class ConvexModification {
   }
 
   void cut(const LateralInterval<T>& zone) {
+    using std::sqrt;
     const ProfilePoint<T> left = below(zone.lower);
     const ProfilePoint<T> right = original_.evaluate(zone.upper);
-    const T lateral = (right.value - left.value + left.slope * zone.lower -
-                       right.slope * zone.upper) /
-                      (left.slope - right.slope);
+    const T lateral =
+        (right.value - left.value + left.slope * zone.lower - right.slope * zone.upper) /
+        (left.slope - right.slope);
     detail::require(zone.lower < lateral && lateral < zone.upper,
                     "convex modification: the tangents at the ends of the concave zone [" +
                         detail::to_text(zone.lower) + ", " + detail::to_text(zone.upper) +
                         "] m do not meet inside it");
-    corners_.push_back({zone, lateral, left.value + left.slope * (lateral - zone.lower)});
+    const T value = left.value + left.slope * (lateral - zone.lower);
+    // A convex corner inside the zone could stick out of the tangents: look at samples of it.
+    const T tolerance = sqrt(epsilon<T>()) * (zone.upper - zone.lower);
+    constexpr int samples = 256;
+    for (int i = 1; i < samples; ++i) {
+      const T at = zone.lower + (zone.upper - zone.lower) * T(i) / T(samples);
+      const T tangent = at < lateral ? T(left.value + left.slope * (at - zone.lower))
+                                     : T(right.value + right.slope * (at - zone.upper));
+      detail::require(tangent <= original_.evaluate(at).value + tolerance,
+                      "convex modification: at lateral " + detail::to_text(at) +
+                          " m the tangents at the ends of the concave zone [" +
+                          detail::to_text(zone.lower) + ", " + detail::to_text(zone.upper) +
+                          "] m lie outside the profile");
+    }
+    corners_.push_back({zone, lateral, value});
   }
 
   void build_pieces() {

@@ -32,8 +32,7 @@ class ProfilePiece {
                     "polynomial piece: there are " + std::to_string(coefficients.size()) +
                         " coefficients, but there must be 1 to 9");
     for (std::size_t k = 0; k < coefficients.size(); ++k) {
-      detail::require_finite("polynomial piece: coefficient " + std::to_string(k),
-                             coefficients[k]);
+      detail::require_finite("polynomial piece: coefficient " + std::to_string(k), coefficients[k]);
       piece.coefficients_[k] = coefficients[k];
     }
     piece.degree_ = static_cast<int>(coefficients.size()) - 1;
@@ -91,8 +90,7 @@ class ProfilePiece {
       slope = slope * x + value;
       value = value * x + coefficients_[static_cast<std::size_t>(k)];
     }
-    return {value, slope * inverse_scale_,
-            T(2) * half_second * inverse_scale_ * inverse_scale_};
+    return {value, slope * inverse_scale_, T(2) * half_second * inverse_scale_ * inverse_scale_};
   }
 
  private:

@@ -6,6 +6,7 @@
 
 #include <concepts>
 #include <wheelrail/core/scalar.hpp>
+#include <wheelrail/core/vector.hpp>
 
 namespace wheelrail {
 
@@ -23,18 +24,30 @@ struct ProfilePoint {
 /// the field side. Evaluation outside [lower(), upper()] is not defined.
 template <class P>
 concept Profile = Real<typename P::Scalar> &&
-                  requires(const P profile, const typename P::Scalar lateral, const int piece) {
-                    { profile.lower() } -> std::convertible_to<typename P::Scalar>;
-                    { profile.upper() } -> std::convertible_to<typename P::Scalar>;
-                    { profile.piece_count() } -> std::convertible_to<int>;
-                    { profile.joint(piece) } -> std::convertible_to<typename P::Scalar>;
-                    {
-                      profile.evaluate(lateral)
-                    } -> std::same_as<ProfilePoint<typename P::Scalar>>;
-                    {
-                      profile.evaluate(piece, lateral)
-                    } -> std::same_as<ProfilePoint<typename P::Scalar>>;
-                  };
+    requires(const P profile, const typename P::Scalar lateral, const int piece) {
+  { profile.lower() } -> std::convertible_to<typename P::Scalar>;
+  { profile.upper() } -> std::convertible_to<typename P::Scalar>;
+  { profile.piece_count() } -> std::convertible_to<int>;
+  { profile.joint(piece) } -> std::convertible_to<typename P::Scalar>;
+  { profile.evaluate(lateral) } -> std::same_as<ProfilePoint<typename P::Scalar>>;
+  { profile.evaluate(piece, lateral) } -> std::same_as<ProfilePoint<typename P::Scalar>>;
+};
+
+/// The nearest point of a profile to a point of its plane.
+template <Real T>
+struct ClosestPoint {
+  T lateral{};      ///< of the profile's point [m]
+  T penetration{};  ///< depth of the given point under the surface [m], negative above it
+  Vector2<T> normal_rail{T(0), T(1)};  ///< outward unit normal there: (lateral, up)
+};
+
+/// A profile that knows its nearest point in closed form. Where the foot of the perpendicular would
+/// lie beyond an end, the profile goes on along its end tangent, and `lateral` lies outside
+/// [lower(), upper()].
+template <class P>
+concept HasClosestPoint = Profile<P> && requires(const P profile, const typename P::Scalar x) {
+  { profile.closest_point(x, x) } -> std::same_as<ClosestPoint<typename P::Scalar>>;
+};
 
 /// The curvature [1/m] of a profile at @p point, positive where the body is convex: (17), (26).
 template <Real T>

@@ -20,18 +20,17 @@ enum class S1002Form {
 namespace detail {
 
 // The polynomials of the sections B and C [mm], in powers of the lateral coordinate [mm].
-inline constexpr std::array<long double, 9> s1002_section_b{
-    0.0L,
-    -0.03358537058L,
-    0.001565681624L,
-    -2.810427944e-05L,
-    5.844240864e-08L,
-    -1.562379023e-08L,
-    5.309217349e-15L,
-    -5.957839843e-12L,
-    2.646656573e-13L};
+inline constexpr std::array<long double, 9> s1002_section_b{0.0L,
+                                                            -0.03358537058L,
+                                                            0.001565681624L,
+                                                            -2.810427944e-05L,
+                                                            5.844240864e-08L,
+                                                            -1.562379023e-08L,
+                                                            5.309217349e-15L,
+                                                            -5.957839843e-12L,
+                                                            2.646656573e-13L};
 inline constexpr std::array<long double, 9> s1002_section_c{
-    -4320.221063L, -1038.384026L,    -106.5501873L,    -6.051367875L, -0.2054332446L,
+    -4320.221063L,    -1038.384026L,     -106.5501873L,    -6.051367875L, -0.2054332446L,
     -0.004169739389L, -4.687195829e-05L, -2.25275554e-07L, 0.0L};
 // Added to section C, in powers of lateral + 35 mm [mm]: closes its jumps in value and slope at -35
 // and -26 mm, and adds at most 2.9e-6 /mm of second derivative.

@@ -1,0 +1,13 @@
+# Fig. 14: magnitude of the normal force on the left wheel, once the drop onto the rails has died
+# away. Needs `data`.
+set datafile separator ","
+file = data."/fig12_fig14_wheelset.csv"
+set title "Normal force on the left wheel, wheelset on a tangent track at 10 m/s"
+set xlabel "time [s]"
+set ylabel "normal force [kN]"
+set xrange [1:*]
+set grid
+set key outside top center horizontal
+plot file every ::1 using 1:3 with lines lw 4 lc rgb "#f0a030" title "convex, minimum distance", \
+     file every ::1 using 1:5 with lines lw 2 dt 2 lc rgb "#202020" title "convex, strips", \
+     file every ::1 using 1:7 with lines lw 2 lc rgb "#1f4e9c" title "S1002, strips"

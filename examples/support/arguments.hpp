@@ -1,0 +1,132 @@
+#pragma once
+// The command line of the examples: options with defaults, units and --help, and errors that name
+// the option, the value and the rule. `--name value` and `--name=value` both work.
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace examples {
+
+struct Option {
+  std::string name;           // with its dashes
+  std::string placeholder;    // what the value is, e.g. "M/S"
+  std::string default_value;  // empty: none
+  std::string help;           // with the unit
+};
+
+class Arguments {
+ public:
+  Arguments(std::string summary, std::vector<Option> options)
+      : summary_(std::move(summary)), options_(std::move(options)) {}
+
+  // Throws std::invalid_argument. Returns false when --help was asked for and printed.
+  [[nodiscard]] bool parse(int argc, char** argv) {
+    for (int i = 1; i < argc; ++i) {
+      std::string name = argv[i];
+      if (name == "--help" || name == "-h") {
+        print_help(argv[0]);
+        return false;
+      }
+      std::string value;
+      const auto equals = name.find('=');
+      const bool has_value = name.starts_with("--") && equals != std::string::npos;
+      if (has_value) {
+        value = name.substr(equals + 1);
+        name.resize(equals);
+      }
+      if (find(name) == nullptr) {
+        throw std::invalid_argument("unknown option " + name + " (--help lists the options)");
+      }
+      if (!has_value) {
+        if (i + 1 >= argc) throw std::invalid_argument(name + ": its value is missing");
+        value = argv[++i];
+      }
+      if (!given_.emplace(name, value).second) {
+        throw std::invalid_argument(name + " is given twice");
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool given(const std::string& name) const { return given_.contains(name); }
+
+  [[nodiscard]] std::string text(const std::string& name) const {
+    const auto found = given_.find(name);
+    return found != given_.end() ? found->second : find(name)->default_value;
+  }
+
+  [[nodiscard]] double number(const std::string& name) const {
+    const std::string value = text(name);
+    char* end = nullptr;
+    const double number = std::strtod(value.c_str(), &end);
+    if (value.empty() || *end != '\0' || !std::isfinite(number)) {
+      throw std::invalid_argument(name + " is '" + value + "', but must be a finite number");
+    }
+    return number;
+  }
+
+  [[nodiscard]] double positive(const std::string& name) const {
+    const double value = number(name);
+    if (!(value > 0)) {
+      throw std::invalid_argument(name + " is " + text(name) + ", but must be > 0");
+    }
+    return value;
+  }
+
+  // One of the given words.
+  [[nodiscard]] std::string choice(const std::string& name,
+                                   const std::vector<std::string>& words) const {
+    const std::string value = text(name);
+    std::string list;
+    for (const std::string& word : words) {
+      if (word == value) return value;
+      list += (list.empty() ? "" : ", ") + word;
+    }
+    throw std::invalid_argument(name + " is '" + value + "', but must be one of " + list);
+  }
+
+ private:
+  [[nodiscard]] const Option* find(const std::string& name) const {
+    for (const Option& option : options_) {
+      if (option.name == name) return &option;
+    }
+    return nullptr;
+  }
+
+  void print_help(const std::string& path) const {
+    const std::string program = path.substr(path.find_last_of('/') + 1);
+    std::printf("usage: %s [options]\n\n%s\n\noptions:\n", program.c_str(), summary_.c_str());
+    for (const Option& option : options_) {
+      const std::string left = option.name + " " + option.placeholder;
+      std::printf("  %-28s %s", left.c_str(), option.help.c_str());
+      if (!option.default_value.empty()) std::printf(" (default %s)", option.default_value.c_str());
+      std::printf("\n");
+    }
+    std::printf("  %-28s print this\n", "--help");
+  }
+
+  std::string summary_;
+  std::vector<Option> options_;
+  std::map<std::string, std::string> given_;
+};
+
+// Runs an example's body: bad input is one line on standard error and exit code 2.
+template <class Body>
+[[nodiscard]] int run(int argc, char** argv, Arguments arguments, Body&& body) {
+  const std::string path = argc > 0 ? argv[0] : "example";
+  try {
+    if (!arguments.parse(argc, argv)) return 0;
+    return body(arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", path.substr(path.find_last_of('/') + 1).c_str(), error.what());
+    return 2;
+  }
+}
+
+}  // namespace examples

@@ -1,0 +1,49 @@
+#pragma once
+// Files of the examples: made whole or not at all.
+
+#include <cstdarg>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+
+namespace examples {
+
+// A line of text as printf makes it.
+[[gnu::format(printf, 1, 2)]] [[nodiscard]] inline std::string format(const char* pattern, ...) {
+  char text[4096];
+  std::va_list values;
+  va_start(values, pattern);
+  std::vsnprintf(text, sizeof text, pattern, values);
+  va_end(values);
+  return text;
+}
+
+// Makes the directory and checks that it can be written to, before a long run.
+inline std::filesystem::path prepare_directory(const std::string& name) {
+  std::error_code error;
+  std::filesystem::create_directories(name, error);
+  const std::filesystem::path probe = std::filesystem::path(name) / ".wheelrail-probe";
+  const bool writable = !error && std::ofstream(probe).good();
+  std::filesystem::remove(probe, error);
+  if (!writable) {
+    throw std::invalid_argument("--output is '" + name +
+                                "', but must be a directory that can be made and written to");
+  }
+  return name;
+}
+
+// Writes to a neighbouring file first and renames it: a reader never sees half a file.
+inline void write_file(const std::filesystem::path& path, const std::string& text) {
+  std::filesystem::path part = path;
+  part += ".part";
+  std::ofstream file(part, std::ios::binary);
+  file << text;
+  file.close();
+  std::error_code error;
+  if (file.good()) std::filesystem::rename(part, path, error);
+  if (!file.good() || error) throw std::runtime_error("cannot write " + path.string());
+}
+
+}  // namespace examples

@@ -1,0 +1,192 @@
+#pragma once
+// A single wheelset running on a tangent track (§6.1 of the paper): the equations of motion, the
+// run, and what is recorded of it.
+
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+#include <wheelrail/dynamics/rigid_body_vector.hpp>
+#include <wheelrail/numerics/integrate.hpp>
+#include <wheelrail/wheelrail.hpp>
+
+namespace examples {
+
+using wheelrail::Side;
+using State = wheelrail::Vector13<double>;
+
+// Defaults: Tables 1 and 2 of the paper; mass and inertia of a light metro trailer's wheelset,
+// assumed round numbers.
+struct WheelsetCase {
+  double speed = 10;              // [m/s]
+  double duration = 10;           // [s]
+  double lateral_shift = 0.002;   // at the start, to the left [m]
+  double yaw = 0;                 // at the start, to the left [rad]
+  double mass = 1000;             // [kg]
+  double roll_inertia = 600;      // about x, and about z [kg m2]
+  double spin_inertia = 80;       // about the axle [kg m2]
+  double gravity = 9.81;          // [m/s2]
+  double starting_gap = 1e-6;     // between each wheel and its rail at the start [m]
+  double report_interval = 1e-3;  // [s]
+  wheelrail::DormandPrinceOptions<double> integrator{
+      .relative_tolerance = 1e-5, .absolute_tolerance = 1e-5, .maximum_step = 1e-3};
+};
+
+// The equations of motion of a wheelset on a track; world and track frame are the same.
+template <class Wheelset, class Track, class Search>
+class WheelsetOnTrack {
+ public:
+  WheelsetOnTrack(const Wheelset& wheelset, const Track& track,
+                  const wheelrail::ContactForceModel<double>& model, const Search& search,
+                  const WheelsetCase& run)
+      : wheelset_(wheelset),
+        track_(track),
+        model_(model),
+        search_(search),
+        body_(run.mass, {run.roll_inertia, run.spin_inertia, run.roll_inertia}),
+        gravity_(run.gravity) {}
+
+  [[nodiscard]] const wheelrail::RigidBody<double>& body() const { return body_; }
+
+  [[nodiscard]] static wheelrail::WheelsetPosition<double> position(
+      const wheelrail::RigidBodyState<double>& state) {
+    return {state.position_world, wheelrail::rotation_matrix(state.orientation).col(1)};
+  }
+
+  [[nodiscard]] wheelrail::WheelsetForces<double> forces(
+      const wheelrail::RigidBodyState<double>& state) const {
+    const wheelrail::Vector3<double> angular_velocity_world =
+        wheelrail::rotation_matrix(state.orientation) * state.angular_velocity_body;
+    return wheelset_forces(wheelset_, track_, position(state),
+                           {state.velocity_world, angular_velocity_world}, model_, search_);
+  }
+
+  [[nodiscard]] State operator()(double, const State& y) {
+    const auto state = wheelrail::unpack_rigid_body(y);
+    const auto contact = forces(state);
+    searches_ += 2;
+    for (const auto& wheel : contact.wheels) {
+      evaluations_ += wheel.evaluations;
+      if (wheel.status != wheelrail::SearchStatus::complete) ++failures_;
+    }
+    wheelrail::Wrench<double> wrench{contact.force_track, contact.moment_track};
+    wrench.force_world.z() -= body_.mass() * gravity_;
+    return pack(derivative(body_, state, wrench));
+  }
+
+  // Kinetic energy and that of the weight [J].
+  [[nodiscard]] double energy(const wheelrail::RigidBodyState<double>& state) const {
+    return kinetic_energy(body_, state) + body_.mass() * gravity_ * state.position_world.z();
+  }
+
+  // At rest relative to its rolling: the wheels just above the rails.
+  [[nodiscard]] wheelrail::RigidBodyState<double> start(const WheelsetCase& run) const {
+    const auto set_down =
+        touching_position(wheelset_, track_, run.lateral_shift, run.yaw, {.gap = run.starting_gap});
+    if (set_down.status != wheelrail::SolveStatus::converged) {
+      throw std::invalid_argument(
+          "the wheelset cannot be set down on the rails at the lateral "
+          "shift " +
+          std::to_string(run.lateral_shift) + " m (" + name_of(set_down.status) + ")");
+    }
+    wheelrail::RigidBodyState<double> state;
+    state.position_world = set_down.position.position_track;
+    state.orientation = wheelrail::euler_product(
+        wheelrail::euler_parameters_from_axis_angle<double>({0, 0, 1}, run.yaw),
+        wheelrail::euler_parameters_from_axis_angle<double>({1, 0, 0}, set_down.roll));
+    state.velocity_world = {run.speed * std::cos(run.yaw), run.speed * std::sin(run.yaw), 0};
+    const double radius = wheelset_.wheel(Side::left).nominal_radius();
+    state.angular_velocity_body = {0, run.speed / radius, 0};
+    return state;
+  }
+
+  [[nodiscard]] long searches() const { return searches_; }
+  [[nodiscard]] long evaluations() const { return evaluations_; }
+  [[nodiscard]] long failures() const { return failures_; }
+
+ private:
+  const Wheelset& wheelset_;
+  const Track& track_;
+  const wheelrail::ContactForceModel<double>& model_;
+  const Search& search_;
+  wheelrail::RigidBody<double> body_;
+  double gravity_;
+  long searches_ = 0;
+  long evaluations_ = 0;
+  long failures_ = 0;
+};
+
+// One reported instant.
+struct WheelsetRecord {
+  double time;  // [s]
+  wheelrail::RigidBodyState<double> state;
+  wheelrail::Vector3<double> axle_track;
+  wheelrail::WheelsetForces<double> forces;
+
+  [[nodiscard]] double lateral_shift() const { return state.position_world.y(); }
+  [[nodiscard]] double yaw() const { return std::atan2(-axle_track.x(), axle_track.y()); }
+  [[nodiscard]] double roll() const { return std::asin(axle_track.z()); }
+};
+
+struct WheelsetHistory {
+  std::vector<WheelsetRecord> records;
+  wheelrail::IntegrationStatus status = wheelrail::IntegrationStatus::not_finite;
+  double end_time = 0;  // [s]
+  int steps = 0;
+  int rejected_steps = 0;
+  long searches = 0;     // one wheel on its rail, in the integration only
+  long evaluations = 0;  // strips, or Newton systems, in these searches
+  long failures = 0;     // searches that were not complete
+  double seconds = 0;    // wall time of the integration, records included
+};
+
+// Runs one case; progress(t) is called at every report.
+template <class Wheelset, class Track, class Search>
+[[nodiscard]] WheelsetHistory run_wheelset(
+    const Wheelset& wheelset, const Track& track, const wheelrail::ContactForceModel<double>& model,
+    const Search& search, const WheelsetCase& run,
+    const std::function<void(double)>& progress = [](double) {}) {
+  WheelsetOnTrack system(wheelset, track, model, search, run);
+  const State start = pack(system.start(run));
+  WheelsetHistory history;
+  history.records.reserve(static_cast<std::size_t>(run.duration / run.report_interval) + 2);
+  const auto begin = std::chrono::steady_clock::now();
+  const auto result = wheelrail::integrate<State>(
+      system, 0.0, start, run.duration, run.report_interval, run.integrator,
+      [&](double t, const State& y) {
+        const auto state = wheelrail::unpack_rigid_body(y);
+        history.records.push_back(
+            {t, state, system.position(state).axle_track, system.forces(state)});
+        progress(t);
+        return true;
+      });
+  history.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  history.status = result.status;
+  history.end_time = result.time;
+  history.steps = result.steps;
+  history.rejected_steps = result.rejected_steps;
+  history.searches = system.searches();
+  history.evaluations = system.evaluations();
+  history.failures = system.failures();
+  return history;
+}
+
+// The mean wavelength of the lateral motion [m], from all its passages through the track's middle;
+// NaN with fewer than two of them.
+[[nodiscard]] inline double hunting_wavelength(const WheelsetHistory& history) {
+  double first = 0, last = 0;
+  int passages = 0;
+  for (std::size_t i = 1; i < history.records.size(); ++i) {
+    const auto& before = history.records[i - 1];
+    const auto& after = history.records[i];
+    if ((before.lateral_shift() < 0) == (after.lateral_shift() < 0)) continue;
+    const double share = before.lateral_shift() / (before.lateral_shift() - after.lateral_shift());
+    const double x0 = before.state.position_world.x();
+    last = x0 + share * (after.state.position_world.x() - x0);
+    if (passages++ == 0) first = last;
+  }
+  return passages < 2 ? std::nan("") : 2 * (last - first) / (passages - 1);
+}
+
+}  // namespace examples

@@ -1,0 +1,103 @@
+// A single wheelset on a tangent track (§6.1 of the paper): runs it, writes its tables and prints a
+// summary.
+
+#include <cstdio>
+
+#include "support/arguments.hpp"
+#include "support/profiles.hpp"
+#include "support/wheelset_output.hpp"
+
+namespace {
+
+template <class WheelProfile>
+int simulate(const examples::Arguments& given, const WheelProfile& profile) {
+  const wheelrail::Wheelset wheelset(profile, given.positive("--nominal-radius"),
+                                     given.positive("--profile-spacing"));
+  const wheelrail::TangentTrack track(
+      examples::rail_profile(given.choice("--rail", examples::rail_names)),
+      {.gauge = given.positive("--gauge"), .inclination = given.number("--inclination")});
+  wheelrail::require_fit(wheelset, track);
+  wheelrail::ContactForceOptions<double> force;
+  force.friction_coefficient = given.number("--friction");
+  force.normal.restitution_force_ratio = given.number("--restitution");
+  const wheelrail::ContactForceModel<double> model(force);
+  examples::WheelsetCase run;
+  run.speed = given.positive("--speed");
+  run.duration = given.positive("--duration");
+  run.lateral_shift = given.number("--lateral-shift");
+  run.yaw = given.number("--yaw");
+  run.mass = given.positive("--mass");
+  run.roll_inertia = given.positive("--roll-inertia");
+  run.spin_inertia = given.positive("--spin-inertia");
+  run.integrator.relative_tolerance = run.integrator.absolute_tolerance =
+      given.positive("--tolerance");
+  run.integrator.maximum_step = given.positive("--maximum-step");
+  if (run.duration / run.report_interval > 1e6) {
+    throw std::invalid_argument("--duration is " + given.text("--duration") +
+                                ", but must be at most 1000 s");
+  }
+  const std::string method = given.choice("--method", examples::method_names);
+  std::filesystem::path output;
+  if (given.given("--output")) output = examples::prepare_directory(given.text("--output"));
+
+  const auto history = examples::with_search(method, profile, [&](const auto& search) {
+    return run_wheelset(wheelset, track, model, search, run);
+  });
+  const std::string summary = "wheel: " + given.text("--wheel") +
+                              "\nrail: " + given.text("--rail") + "\nmethod: " + method + "\n" +
+                              examples::summary(history);
+  if (!output.empty()) {
+    examples::write_file(output / "time_series.csv", time_series_csv(history, run));
+    examples::write_file(output / "patches.csv", patches_csv(history));
+    examples::write_file(output / "summary.txt", summary);
+  }
+  std::fputs(summary.c_str(), stdout);
+  if (history.failures > 0) {
+    std::fprintf(
+        stderr, "wheelset_on_tangent_track: %ld of %ld contact searches did not converge%s\n",
+        history.failures, history.searches,
+        method == "minimum-distance" ? ": the minimum distance method needs a convex wheel" : "");
+  }
+  if (history.status != wheelrail::IntegrationStatus::finished) {
+    std::fprintf(stderr, "wheelset_on_tangent_track: the run stopped at %.6g s: %s\n",
+                 history.end_time, name_of(history.status));
+  }
+  const bool good =
+      history.failures == 0 && history.status == wheelrail::IntegrationStatus::finished;
+  return good ? 0 : 3;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  examples::Arguments arguments(
+      "Runs a single wheelset on a tangent track (the paper's first case), started off centre and\n"
+      "just above the rails, and prints a summary. With --output also writes time_series.csv and\n"
+      "patches.csv (every 1 ms; SI units, track frame: x forward, y left, z up) and summary.txt.\n"
+      "real_time_factor is simulated over elapsed time.\n"
+      "Exit code 0; 2 on bad input, 3 when searches or the integration failed.",
+      {{"--wheel", "NAME", "s1002", "wheel profile: s1002 or s1002-convex"},
+       {"--rail", "NAME", "uic50", "rail profile: uic50 (an assumed 50E4 head) or 60e1"},
+       {"--method", "NAME", "strip", "contact search: strip or minimum-distance"},
+       {"--speed", "M/S", "10", "forward speed at the start [m/s]"},
+       {"--duration", "S", "10", "of the run [s], at most 1000"},
+       {"--lateral-shift", "M", "0.002", "at the start, to the left [m]"},
+       {"--yaw", "RAD", "0", "at the start, to the left [rad]"},
+       {"--output", "DIR", "", "where the tables go; made if need be; nothing is written without"},
+       {"--mass", "KG", "1000", "of the wheelset [kg]"},
+       {"--roll-inertia", "KG_M2", "600", "about the longitudinal and vertical axis [kg m2]"},
+       {"--spin-inertia", "KG_M2", "80", "about the axle [kg m2]"},
+       {"--friction", "MU", "0.25", "friction coefficient [-]"},
+       {"--restitution", "CE", "0.75", "ratio of opening to closing normal force, c_e [-]"},
+       {"--nominal-radius", "M", "0.43", "wheel radius at the tread circle [m]"},
+       {"--profile-spacing", "M", "1.5", "distance of the wheels' tread circles [m]"},
+       {"--gauge", "M", "1.435", "track gauge, 14 mm below the rails' highest points [m]"},
+       {"--inclination", "SLOPE", "0.05", "rail inclination towards the track's middle [-]"},
+       {"--tolerance", "TOL", "1e-5", "relative and absolute tolerance of the integrator [-]"},
+       {"--maximum-step", "S", "0.001", "longest step of the integrator [s]"}});
+  return examples::run(argc, argv, arguments, [](const examples::Arguments& given) {
+    return examples::with_wheel_profile(
+        given.choice("--wheel", examples::wheel_names),
+        [&](const auto& profile) { return simulate(given, profile); });
+  });
+}

@@ -1,0 +1,114 @@
+#pragma once
+/// @file
+/// What a contact search returns: patches and how the search went, the same for every method.
+/// May include: core, numerics, profile, surface.
+
+#include <wheelrail/contact/locus.hpp>
+#include <wheelrail/contact/rail_foot.hpp>
+#include <wheelrail/core/fixed_list.hpp>
+
+namespace wheelrail {
+
+/// One contact patch: the deepest point of one zone in which wheel and rail overlap.
+/// Invariant: zone_lower <= wheel_lateral <= zone_upper where the zone is known; normal_rail and
+/// longitudinal_rail are orthogonal unit vectors to rounding.
+template <Real T>
+struct Patch {
+  T wheel_lateral{};  ///< u_w, from the tread circle to the field side [m]
+  T rail_lateral{};   ///< u_r, from the rail profile's origin to the field side [m]
+  /// s_w (57), right-handed about the axle's direction to the field side, 0 straight below [rad]
+  T wheel_angle{};
+  T longitudinal{};  ///< forwards along the rail from the wheel profile's origin (59) [m]
+  T penetration{};   ///< virtual penetration, (33), positive in contact [m]
+  T zone_lower{};    ///< wheel_lateral where the zone begins (62) [m]; NaN: not known by the method
+  T zone_upper{};    ///< wheel_lateral where the zone ends [m]
+  /// The zone ends where the wheel's or the rail's profile ends, not where the bodies part.
+  bool zone_is_cut = false;
+  /// Slope of the contact plane against the track plane, rising to the field side: positive on the
+  /// flange, on both sides [rad]
+  T contact_angle{};
+  T rolling_radius{};                             ///< nominal radius + F [m]
+  T wheel_longitudinal_curvature{};               ///< (27) [1/m]
+  T wheel_lateral_curvature{};                    ///< (26) [1/m]
+  T rail_lateral_curvature{};                     ///< (17) [1/m]
+  Vector3<T> position_rail = Vector3<T>::Zero();  ///< the wheel's contact point Q [m], rail frame
+  Vector3<T> normal_rail = Vector3<T>::UnitZ();   ///< unit normal from rail to wheel, rail frame
+  Vector3<T> longitudinal_rail =
+      Vector3<T>::UnitX();  ///< unit tangent t_w,s (20) along x, rail frame
+};
+
+/// How a search ended.
+enum class SearchStatus {
+  complete,          ///< every strip, or every part of the profile, was dealt with
+  not_converged,     ///< an iteration failed: a patch may be missing
+  too_many_patches,  ///< more zones than a ContactResult holds: the first ones are returned
+  not_finite         ///< the placement holds a NaN or an infinity: nothing was searched
+};
+
+/// The status in words, for messages and tables.
+[[nodiscard]] constexpr const char* name_of(SearchStatus status) {
+  switch (status) {
+    case SearchStatus::complete:
+      return "complete";
+    case SearchStatus::not_converged:
+      return "not_converged";
+    case SearchStatus::too_many_patches:
+      return "too_many_patches";
+    case SearchStatus::not_finite:
+      return "not_finite";
+  }
+  return "unknown";
+}
+
+/// All patches of one wheel on its rail. No contact is an empty list with status complete.
+/// Invariant: patches are in the order of wheel_lateral, from the flange to the field side.
+template <Real T>
+struct ContactResult {
+  static constexpr std::size_t maximum_patches = 8;
+  FixedList<Patch<T>, maximum_patches> patches;
+  SearchStatus status = SearchStatus::complete;
+  int evaluations = 0;  ///< strips whose penetration was computed, or Newton systems solved
+};
+
+namespace detail {
+
+template <Real T>
+[[nodiscard]] bool is_finite_placement(const WheelPlacement<T>& p) {
+  return is_finite(p.position_rail.x()) && is_finite(p.position_rail.y()) &&
+         is_finite(p.position_rail.z()) && is_finite(p.sin_yaw) && is_finite(p.cos_yaw) &&
+         is_finite(p.sin_roll) && is_finite(p.cos_roll) && T(0) < p.cos_yaw;
+}
+
+/// The patch at a pair of contact points, its zone not yet known.
+template <Profile P, Profile R>
+[[nodiscard]] Patch<typename P::Scalar> patch_at(
+    const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
+    const typename P::Scalar& wheel_lateral, const ProfilePoint<typename P::Scalar>& wheel_point,
+    const WheelAngle<typename P::Scalar>& angle, const typename P::Scalar& rail_lateral,
+    const Vector3<typename P::Scalar>& normal_rail, const typename P::Scalar& penetration) {
+  using std::asin;
+  using std::atan2;
+  using T = typename P::Scalar;
+  const T on_rail = clamp(rail_lateral, rail.profile().lower(), rail.profile().upper());
+  const Vector3<T> arm_rail =
+      placement.direction_rail(wheel.position_wheel(wheel_lateral, wheel_point, angle));
+  Patch<T> patch;
+  patch.wheel_lateral = wheel_lateral;
+  patch.rail_lateral = rail_lateral;
+  patch.wheel_angle = asin(angle.sine);
+  patch.longitudinal = outboard_sign<T>(placement.side) * arm_rail.x();
+  patch.penetration = penetration;
+  patch.zone_lower = patch.zone_upper = T(0) / T(0);
+  patch.contact_angle = atan2(T(-normal_rail.y()), T(normal_rail.z())) + placement.inclination;
+  patch.rolling_radius = wheel.radius(wheel_point);
+  patch.wheel_longitudinal_curvature = wheel.longitudinal_curvature(wheel_point);
+  patch.wheel_lateral_curvature = wheel.lateral_curvature(wheel_point);
+  patch.rail_lateral_curvature = rail.lateral_curvature(rail.profile().evaluate(on_rail));
+  patch.position_rail = placement.position_rail + arm_rail;
+  patch.normal_rail = normal_rail;
+  patch.longitudinal_rail = placement.direction_rail(wheel.longitudinal_tangent_wheel(angle));
+  return patch;
+}
+
+}  // namespace detail
+}  // namespace wheelrail

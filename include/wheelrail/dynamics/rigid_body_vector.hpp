@@ -1,0 +1,60 @@
+#pragma once
+/// @file
+/// Rigid bodies in one column of numbers, for integrators (numerics/dormand_prince.hpp): body i of
+/// a system holds the thirteen numbers from 13 i on, in the order of RigidBodyState's fields. May
+/// include: core, dynamics, Eigen, std.
+
+#include <wheelrail/core/assert.hpp>
+#include <wheelrail/dynamics/rigid_body.hpp>
+
+namespace wheelrail {
+
+/// Where a body's numbers stand within its thirteen.
+struct RigidBodyLayout {
+  static constexpr Eigen::Index position_world = 0;
+  static constexpr Eigen::Index orientation = 3;
+  static constexpr Eigen::Index velocity_world = 7;
+  static constexpr Eigen::Index angular_velocity_body = 10;
+  static constexpr Eigen::Index size = 13;
+
+  /// Where body @p index begins in the column of a system.
+  [[nodiscard]] static constexpr Eigen::Index offset(Eigen::Index index) { return size * index; }
+};
+
+/// Position [m], Euler parameters [-], velocity [m/s], angular velocity [rad/s]; or their rates.
+template <Real T>
+using Vector13 = Eigen::Matrix<T, RigidBodyLayout::size, 1, Eigen::DontAlign>;
+
+/// `y.segment<13>(RigidBodyLayout::offset(i)) = pack(state)` lays body i into a system's column.
+template <Real T>
+[[nodiscard]] Vector13<T> pack(const RigidBodyState<T>& state) {
+  Vector13<T> packed;
+  packed << state.position_world, state.orientation, state.velocity_world,
+      state.angular_velocity_body;
+  return packed;
+}
+
+/// The same for the rates, in the same places.
+template <Real T>
+[[nodiscard]] Vector13<T> pack(const RigidBodyRate<T>& rate) {
+  Vector13<T> packed;
+  packed << rate.velocity_world, rate.orientation_rate, rate.acceleration_world,
+      rate.angular_acceleration_body;
+  return packed;
+}
+
+/// The state of body @p index in the column of a system; the inverse of `pack`, bit for bit.
+/// @pre the column has at least 13 (index + 1) rows.
+template <class Derived>
+[[nodiscard]] RigidBodyState<typename Derived::Scalar> unpack_rigid_body(
+    const Eigen::MatrixBase<Derived>& column, Eigen::Index index = 0) {
+  using Layout = RigidBodyLayout;
+  const Eigen::Index offset = Layout::offset(index);
+  WHEELRAIL_ASSERT(0 <= index && offset + Layout::size <= column.rows());
+  return {column.template segment<3>(offset + Layout::position_world),
+          column.template segment<4>(offset + Layout::orientation),
+          column.template segment<3>(offset + Layout::velocity_world),
+          column.template segment<3>(offset + Layout::angular_velocity_body)};
+}
+
+}  // namespace wheelrail

@@ -1,0 +1,101 @@
+#pragma once
+/// @file
+/// From one contact point to its forces: Hertz, the normal force and Polach's creep forces in one
+/// call, (63)-(90), for the patches of anyone's search. May include: core, numerics, force.
+
+#include <wheelrail/force/creepage.hpp>
+#include <wheelrail/force/hertz.hpp>
+#include <wheelrail/force/kalker.hpp>
+#include <wheelrail/force/material.hpp>
+#include <wheelrail/force/normal_force.hpp>
+#include <wheelrail/force/polach.hpp>
+
+namespace wheelrail {
+
+/// What a contact's forces depend on. Velocities are those of the wheel's material point against
+/// the rail, in the right-handed contact frame: x forward, y to the left, z from the rail into the
+/// wheel.
+template <Real T>
+struct ContactKinematics {
+  T penetration{};                  ///< [m], positive in contact
+  HertzCurvatures<T> curvatures{};  ///< (68), (69) [1/m]
+  T longitudinal_velocity{};        ///< [m/s]
+  T lateral_velocity{};             ///< [m/s]
+  T normal_velocity{};              ///< [m/s]; the penetration grows at minus this rate: (65)
+  T spin_velocity{};                ///< about z [rad/s]
+  T forward_speed{};                ///< of the wheelset along the rail, signed [m/s]
+  T speed{};                        ///< of the wheelset's centre [m/s]
+};
+
+/// The forces of one contact, on the wheel, in the contact frame.
+template <Real T>
+struct ContactForce {
+  T normal{};             ///< f_n [N], >= 0, along z
+  CreepForce<T> creep{};  ///< [N], along x and y
+  Creepage<T> creepage{};
+  HertzEllipse<T> ellipse{};
+  T stiffness{};  ///< K of (67) [N/m^1.5]
+  HertzStatus hertz_status = HertzStatus::regular;
+};
+
+/// Defaults: Table 1 of the paper.
+template <Real T>
+struct ContactForceOptions {
+  Material<T> wheel = steel<T>();
+  Material<T> rail = steel<T>();
+  T friction_coefficient = constant<T>(0.25L);  ///< mu [-], >= 0
+  NormalForceOptions<T> normal{};
+  HertzOptions<T> hertz{};
+  CreepageOptions<T> creepage{};
+  /// K [N/m^1.5] in place of (67) where > 0. With (67) the stiffness follows the curvatures at the
+  /// contact point, and the normal force has no potential; with a constant one it has.
+  T constant_stiffness = T(0);
+};
+
+/// The force law with all that does not change from contact to contact. Valid for good once
+/// constructed. @note Queries do not allocate.
+template <Real T>
+class ContactForceModel {
+ public:
+  /// @throws std::invalid_argument where an option is out of its range.
+  explicit ContactForceModel(const ContactForceOptions<T>& options = {})
+      : options_(options),
+        materials_(options.wheel, options.rail),
+        kalker_(materials_.poisson_ratio()) {
+    detail::require_not_negative("friction coefficient", options_.friction_coefficient, "[-]");
+    detail::require_not_negative("constant stiffness", options_.constant_stiffness, "[N/m^1.5]");
+    validate(options_.normal);
+    validate(options_.hertz);
+    validate(options_.creepage);
+  }
+
+  [[nodiscard]] const ContactForceOptions<T>& options() const { return options_; }
+  [[nodiscard]] const MaterialPair<T>& materials() const { return materials_; }
+
+  /// The forces of one contact. NaN in gives NaN; see hertz_status.
+  [[nodiscard]] ContactForce<T> operator()(const ContactKinematics<T>& contact) const {
+    ContactForce<T> force;
+    const HertzShape<T> shape = hertz_shape(contact.curvatures, options_.hertz);
+    force.hertz_status = shape.status;
+    force.stiffness = T(0) < options_.constant_stiffness ? options_.constant_stiffness
+                                                         : hertz_stiffness(shape, materials_);
+    force.normal = normal_force(force.stiffness, contact.penetration, T(-contact.normal_velocity),
+                                options_.normal);
+    force.ellipse = hertz_ellipse(shape, materials_, force.normal);
+    force.creepage =
+        creepage(contact.longitudinal_velocity, contact.lateral_velocity, contact.spin_velocity,
+                 contact.forward_speed, contact.speed, options_.creepage);
+    force.creep = polach_force(
+        force.creepage,
+        PolachContact<T>{force.ellipse, kalker_.at(force.ellipse.a, force.ellipse.b),
+                         materials_.shear_modulus(), options_.friction_coefficient, force.normal});
+    return force;
+  }
+
+ private:
+  ContactForceOptions<T> options_;
+  MaterialPair<T> materials_;
+  KalkerTable<T> kalker_;
+};
+
+}  // namespace wheelrail

@@ -1,0 +1,199 @@
+#pragma once
+/// @file
+/// Hertz's elliptical contact, computed instead of tabulated: (67)-(69), (75)-(77) of the paper,
+/// whose coefficients m, n and C follow from the axis ratio that solves
+/// (E/g^2 - K)/(K - E) = B/(g^2 D) = ratio of the relative curvatures (K. L. Johnson, Contact
+/// Mechanics, ch. 4). May include: core, numerics.
+
+#include <wheelrail/core/require.hpp>
+#include <wheelrail/force/material.hpp>
+#include <wheelrail/numerics/elliptic_integral.hpp>
+
+namespace wheelrail {
+
+/// The relative curvatures of two bodies whose principal directions are aligned [1/m].
+template <Real T>
+struct HertzCurvatures {
+  T longitudinal{};  ///< A of (68): half the sum of both bodies' curvatures along the rolling
+  T lateral{};       ///< B of (69): half the sum of those across
+};
+
+/// (68) and (69) from the curvatures of the two bodies [1/m], positive where a body is convex.
+template <Real T>
+[[nodiscard]] HertzCurvatures<T> hertz_curvatures(const T& wheel_longitudinal,
+                                                  const T& rail_longitudinal,
+                                                  const T& wheel_lateral, const T& rail_lateral) {
+  return {(wheel_longitudinal + rail_longitudinal) / T(2), (wheel_lateral + rail_lateral) / T(2)};
+}
+
+template <Real T>
+struct HertzOptions {
+  /// B is taken as max(B, this) [1/m], > 0. A CHOICE of this library: where fillet and gauge corner
+  /// conform, B falls to zero or below and Hertz is singular. 0.25 1/m is a radius of 2 m.
+  T minimum_lateral_curvature = constant<T>(0.25L);
+};
+
+/// @throws std::invalid_argument unless the bound is finite and > 0.
+template <Real T>
+void validate(const HertzOptions<T>& options) {
+  detail::require_positive("Hertz: minimum lateral curvature", options.minimum_lateral_curvature,
+                           "[1/m]");
+}
+
+/// How the shape of a contact came about.
+enum class HertzStatus {
+  regular,                    ///< the curvatures were taken as they are
+  lateral_curvature_bounded,  ///< B was below HertzOptions::minimum_lateral_curvature
+  no_longitudinal_curvature,  ///< A <= 0: there is no Hertzian contact; the numbers are NaN
+  iteration_limit,            ///< the axis ratio did not converge; the last iterate
+  not_finite                  ///< A or B is NaN or infinite; the numbers are NaN
+};
+
+/// The status in words, for messages and tables.
+[[nodiscard]] constexpr const char* name_of(HertzStatus status) {
+  switch (status) {
+    case HertzStatus::regular:
+      return "regular";
+    case HertzStatus::lateral_curvature_bounded:
+      return "lateral_curvature_bounded";
+    case HertzStatus::no_longitudinal_curvature:
+      return "no_longitudinal_curvature";
+    case HertzStatus::iteration_limit:
+      return "iteration_limit";
+    case HertzStatus::not_finite:
+      return "not_finite";
+  }
+  return "unknown";
+}
+
+/// What the curvatures alone decide. Invariants, to rounding: 0 < axis_ratio <= 1,
+/// minor_coefficient == axis_ratio * major_coefficient; rolling_is_major == (A <= bounded B).
+template <Real T>
+struct HertzShape {
+  T axis_ratio{};             ///< minor over major axis g [-]
+  T major_coefficient{};      ///< m of (75) [-]
+  T minor_coefficient{};      ///< n of (76) [-]
+  T stiffness_coefficient{};  ///< C of (67) [-], 1/pi for a circle
+  T curvature_sum{};          ///< A + B, B bounded [1/m]
+  bool rolling_is_major = true;
+  int iterations = 0;
+  HertzStatus status = HertzStatus::not_finite;
+};
+
+/// The semi-axes of a contact [m]: a along the rolling, b across. Both are 0 without a force.
+template <Real T>
+struct HertzEllipse {
+  T a{};
+  T b{};
+};
+
+namespace detail {
+
+// The cube root of x >= 0, to ln x / 3 rounding units; 0 of 0, where its slope is infinite.
+template <Real T>
+[[nodiscard]] T cube_root(const T& x) {
+  using std::exp;
+  using std::log;
+  return x == T(0) ? T(0) : T(exp(T(log(x) / T(3))));
+}
+
+}  // namespace detail
+
+/// The shape of the contact, by Newton's method for ln g on the logarithm of the curvature ratio:
+/// nearly a straight line, so that two steps reach rounding.
+/// @param curvatures [1/m]; longitudinal > 0, which a wheel on a rail always has.
+/// @return see HertzStatus. Smooth in the curvatures, also where A = B; a kink at the bound of B.
+/// @note No allocation. The last Newton step, at the root, lifts it to derivatives.
+template <Real T>
+[[nodiscard]] HertzShape<T> hertz_shape(const HertzCurvatures<T>& curvatures,
+                                        const HertzOptions<T>& options = {}) {
+  using std::exp;
+  using std::log;
+  using std::sqrt;
+  constexpr int maximum_iterations = 20;
+  HertzShape<T> shape;
+  const T& a = curvatures.longitudinal;
+  const bool finite = is_finite(a) && is_finite(curvatures.lateral);
+  if (!finite || a <= T(0)) {
+    const T not_a_number = T(0) / T(0);
+    shape.axis_ratio = shape.major_coefficient = shape.minor_coefficient = not_a_number;
+    shape.stiffness_coefficient = shape.curvature_sum = not_a_number;
+    if (finite) shape.status = HertzStatus::no_longitudinal_curvature;
+    return shape;
+  }
+  const bool bounded = curvatures.lateral < options.minimum_lateral_curvature;
+  const T b = bounded ? options.minimum_lateral_curvature : curvatures.lateral;
+  shape.status = bounded ? HertzStatus::lateral_curvature_bounded : HertzStatus::regular;
+  shape.curvature_sum = a + b;
+  shape.rolling_is_major = a <= b;
+  const T log_ratio = shape.rolling_is_major ? T(log(T(b / a))) : T(log(T(a / b)));
+  // ln g is odd in ln ratio, with the slope -2/3 at 0. The fit is good to 0.001 up to a ratio of
+  // 1e6; it saves steps and decides nothing.
+  const T s = log_ratio * log_ratio;
+  T x = constant<T>(-2.0L / 3.0L) * log_ratio *
+        (T(1) + s * (constant<T>(0.0415L) + s * constant<T>(0.0001762L))) /
+        (T(1) + s * (constant<T>(0.04601L) + s * constant<T>(0.0002181L)));
+  T g{};
+  T first{};
+  T second{};
+  bool converged = false;
+  while (!converged && shape.iterations < maximum_iterations) {
+    g = exp(x);
+    const CompleteElliptic<T> integrals = complete_elliptic(g);
+    const T residual = log(T(integrals.b / integrals.d)) - T(2) * x - log_ratio;
+    const T slope = T(-3) - (integrals.c - integrals.d) * (T(1) / integrals.b + T(1) / integrals.d);
+    const T step = -residual / slope;
+    x = x + step;
+    ++shape.iterations;
+    // Newton's method squares its error, and so do the integrals carried over the last step by
+    // their slopes: what is left is the square of the step.
+    converged = step * step <= epsilon<T>();
+    first = integrals.first - integrals.b * step;
+    second = integrals.second + g * g * integrals.d * step;
+    g = g + g * step;
+  }
+  if (!converged) shape.status = HertzStatus::iteration_limit;
+  shape.axis_ratio = g;
+  shape.major_coefficient = detail::cube_root(T(T(2) * second / (pi<T>() * g * g)));
+  shape.minor_coefficient = g * shape.major_coefficient;
+  const T base = T(2) * pi<T>() * shape.major_coefficient / (T(3) * first);
+  shape.stiffness_coefficient = T(3) * sqrt(T(3)) / (T(8) * pi<T>()) * base * sqrt(base);
+  return shape;
+}
+
+/// K of (67) [N/m^1.5]: the normal force of an elastic approach d is K d^1.5.
+template <Real T>
+[[nodiscard]] T hertz_stiffness(const HertzShape<T>& shape, const MaterialPair<T>& materials) {
+  using std::sqrt;
+  return T(4) * shape.stiffness_coefficient /
+         (T(3) * materials.compliance() * sqrt(shape.curvature_sum));
+}
+
+/// The contact ellipse: (75) and (76), m and n changing places where A > B.
+/// @param normal_force [N] >= 0. @return the semi-axes [m]; 0 for no force.
+template <Real T>
+[[nodiscard]] HertzEllipse<T> hertz_ellipse(const HertzShape<T>& shape,
+                                            const MaterialPair<T>& materials,
+                                            const T& normal_force) {
+  const T size = detail::cube_root(
+      T(T(3) * pi<T>() * materials.compliance() * normal_force / (T(4) * shape.curvature_sum)));
+  const T major = shape.major_coefficient * size;
+  const T minor = shape.minor_coefficient * size;
+  return shape.rolling_is_major ? HertzEllipse<T>{major, minor} : HertzEllipse<T>{minor, major};
+}
+
+/// The elastic approach of the two bodies [m] under @p normal_force [N] >= 0: (F/K)^(2/3).
+template <Real T>
+[[nodiscard]] T hertz_approach(const HertzShape<T>& shape, const MaterialPair<T>& materials,
+                               const T& normal_force) {
+  return detail::square(detail::cube_root(T(normal_force / hertz_stiffness(shape, materials))));
+}
+
+/// The pressure in the middle of the ellipse [Pa]: 3 F / (2 pi a b); 0 without a force.
+template <Real T>
+[[nodiscard]] T maximum_pressure(const HertzEllipse<T>& ellipse, const T& normal_force) {
+  if (normal_force == T(0)) return T(0);
+  return T(3) * normal_force / (T(2) * pi<T>() * ellipse.a * ellipse.b);
+}
+
+}  // namespace wheelrail

@@ -1,0 +1,87 @@
+#pragma once
+/// @file
+/// A straight, level track: two rails of one profile, inclined inwards and set apart to gauge.
+/// May include: core, numerics, profile, surface.
+///
+/// Track frame: x forward, y left, z up; the highest points of the two heads lie at z = 0, the
+/// plane y = 0 is midway between them. The gauge is the distance of the heads' inner faces 14 mm
+/// below.
+
+#include <array>
+#include <wheelrail/surface/rail.hpp>
+#include <wheelrail/track/detail/inclined_profile.hpp>
+
+namespace wheelrail {
+
+/// How rails are laid. Defaults: the paper's Table 1.
+template <Real T>
+struct TrackDimensions {
+  T gauge = constant<T>(1.435L);       ///< [m]
+  T inclination = constant<T>(0.05L);  ///< slope of the rail's axis towards the track's middle [-]
+};
+
+/// A straight, level track. Valid for good once constructed. @note Queries do not allocate.
+template <Profile R>
+class TangentTrack {
+ public:
+  using Scalar = typename R::Scalar;
+  using T = Scalar;
+  using RailProfile = R;
+
+  /// @param profile of both rails, not yet inclined, lateral coordinate to the field side.
+  /// @throws std::invalid_argument unless the gauge is > 0 and wider than the heads overlap, the
+  ///   inclination is in (-0.5, 0.5), and the profile reaches 14 mm below its highest point.
+  explicit TangentTrack(R profile, const TrackDimensions<T>& dimensions = {})
+      : rail_(std::move(profile)), dimensions_(dimensions) {
+    using std::atan;
+    using std::sqrt;
+    detail::require_positive("track: gauge", dimensions_.gauge, "[m]");
+    const T limit = constant<T>(0.5L);
+    detail::require(
+        is_finite(dimensions_.inclination) && detail::magnitude(dimensions_.inclination) < limit,
+        "track: inclination", dimensions_.inclination, "between -0.5 and 0.5 [-]");
+    const T slope = dimensions_.inclination;
+    const T cosine = T(1) / sqrt(T(T(1) + slope * slope));
+    const T sine = slope * cosine;
+    const detail::InclinedProfile<R> inclined{rail_.profile(), sine, cosine};
+    const T top = inclined.highest();
+    const T gauge_point = inclined.gauge_point(top, detail::gauge_depth<T>());
+    const auto at_top = rail_.profile().evaluate(top);
+    const auto at_gauge = rail_.profile().evaluate(gauge_point);
+    const T half_distance = dimensions_.gauge / T(2) - inclined.outboard(gauge_point, at_gauge);
+    const T height = -inclined.up(top, at_top);
+    head_distance_ = T(2) * (half_distance + inclined.outboard(top, at_top));
+    for (const Side side : sides) {
+      const T sign = outboard_sign<T>(side);
+      RailFrame<T>& frame = frames_[index_of(side)];
+      frame.side = side;
+      frame.origin_track = Vector3<T>(T(0), sign * half_distance, height);
+      // y to the field side, rising; z leaning inwards; x = y x z.
+      frame.axes_track << sign, T(0), T(0),   //
+          T(0), sign * cosine, -sign * sine,  //
+          T(0), sine, cosine;
+      frame.inclination = atan(slope);
+    }
+  }
+
+  [[nodiscard]] const Rail<R>& rail(Side) const { return rail_; }
+  [[nodiscard]] const TrackDimensions<T>& dimensions() const { return dimensions_; }
+
+  /// Distance between the highest points of the two heads [m].
+  [[nodiscard]] const T& head_distance() const { return head_distance_; }
+
+  /// The rail frame at the foot of @p point_track on the rail's path: (36), closed form here.
+  [[nodiscard]] RailFrame<T> nearest_frame(Side side, const Vector3<T>& point_track) const {
+    RailFrame<T> frame = frames_[index_of(side)];
+    frame.origin_track.x() = point_track.x();
+    return frame;
+  }
+
+ private:
+  Rail<R> rail_;
+  TrackDimensions<T> dimensions_;
+  T head_distance_{};
+  std::array<RailFrame<T>, 2> frames_;
+};
+
+}  // namespace wheelrail

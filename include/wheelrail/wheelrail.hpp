@@ -1,0 +1,19 @@
+#pragma once
+/// @file
+/// All of wheelrail but the rigid bodies (dynamics/) and files (io/). Frames, axes, signs and units
+/// are in conventions.hpp.
+
+#include <wheelrail/contact/find_contact.hpp>
+#include <wheelrail/contact/minimum_distance.hpp>
+#include <wheelrail/conventions.hpp>
+#include <wheelrail/force/contact_force.hpp>
+#include <wheelrail/profile/convex_modification.hpp>
+#include <wheelrail/profile/inspection.hpp>
+#include <wheelrail/profile/rail_head.hpp>
+#include <wheelrail/profile/s1002.hpp>
+#include <wheelrail/track/tangent_track.hpp>
+#include <wheelrail/wheelset/fit.hpp>
+#include <wheelrail/wheelset/search_method.hpp>
+#include <wheelrail/wheelset/touching_position.hpp>
+#include <wheelrail/wheelset/wheelset.hpp>
+#include <wheelrail/wheelset/wheelset_forces.hpp>

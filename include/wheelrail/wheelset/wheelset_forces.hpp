@@ -1,0 +1,133 @@
+#pragma once
+/// @file
+/// What a simulator calls: both wheels' patches, their forces, and the wrench on the wheelset for a
+/// position and a motion; equations (65), (66), (71)-(74). May include: all but dynamics and io.
+
+#include <wheelrail/force/contact_force.hpp>
+#include <wheelrail/wheelset/search_method.hpp>
+#include <wheelrail/wheelset/wheelset.hpp>
+
+namespace wheelrail {
+
+/// A patch with its forces. The contact frame's axes are right-handed on both sides:
+/// longitudinal_track forward, lateral_track to the left, normal_track from the rail into the
+/// wheel.
+template <Real T>
+struct PatchForce {
+  Patch<T> patch;
+  ContactForce<T> contact;  ///< components in the contact frame, on the wheel
+  Vector3<T> position_track = Vector3<T>::Zero();  ///< the wheel's contact point Q [m]
+  Vector3<T> longitudinal_track = Vector3<T>::UnitX();
+  Vector3<T> lateral_track = Vector3<T>::UnitY();
+  Vector3<T> normal_track = Vector3<T>::UnitZ();
+  Vector3<T> force_track = Vector3<T>::Zero();  ///< total force on the wheel [N]
+  T penetration_velocity{};                     ///< (65) with its erratum mended [m/s]
+};
+
+/// One wheel of a wheelset.
+template <Real T>
+struct WheelForces {
+  FixedList<PatchForce<T>, ContactResult<T>::maximum_patches> patches;
+  Vector3<T> force_track = Vector3<T>::Zero();   ///< sum over the patches [N]
+  Vector3<T> moment_track = Vector3<T>::Zero();  ///< about the axle's centre [N m]
+  SearchStatus status = SearchStatus::complete;
+  int evaluations = 0;
+};
+
+/// Both wheels and the wrench of the rails on the wheelset.
+template <Real T>
+struct WheelsetForces {
+  std::array<WheelForces<T>, 2> wheels;          ///< ordered as `sides`
+  Vector3<T> force_track = Vector3<T>::Zero();   ///< on the wheelset [N]
+  Vector3<T> moment_track = Vector3<T>::Zero();  ///< on the wheelset, about the axle's centre [N m]
+
+  [[nodiscard]] const WheelForces<T>& wheel(Side side) const { return wheels[index_of(side)]; }
+};
+
+namespace detail {
+
+template <Real T>
+[[nodiscard]] T dot(const Vector3<T>& a, const Vector3<T>& b) {
+  return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
+}
+
+/// The forces of one patch. @p arm_track from the axle's centre to the contact point [m].
+template <Real T>
+[[nodiscard]] PatchForce<T> patch_force(const Patch<T>& patch, const RailFrame<T>& frame,
+                                        const WheelsetPosition<T>& at,
+                                        const WheelsetMotion<T>& motion,
+                                        const ContactForceModel<T>& model) {
+  using std::sqrt;
+  PatchForce<T> result;
+  result.patch = patch;
+  result.position_track = frame.position_track(patch.position_rail);
+  result.normal_track = frame.direction_track(patch.normal_rail);
+  // The rail frame's x points backwards on the right.
+  result.longitudinal_track =
+      outboard_sign<T>(frame.side) * frame.direction_track(patch.longitudinal_rail);
+  result.lateral_track = cross(result.normal_track, result.longitudinal_track);
+
+  const Vector3<T> arm_track = result.position_track - at.position_track;
+  const Vector3<T> velocity_track =  // (66); the rail is at rest
+      motion.velocity_track + cross(motion.angular_velocity_track, arm_track);
+  ContactKinematics<T> contact;
+  contact.penetration = patch.penetration;
+  contact.curvatures =
+      hertz_curvatures(patch.wheel_longitudinal_curvature, T(0), patch.wheel_lateral_curvature,
+                       patch.rail_lateral_curvature);
+  contact.longitudinal_velocity = dot(velocity_track, result.longitudinal_track);
+  contact.lateral_velocity = dot(velocity_track, result.lateral_track);
+  contact.normal_velocity = dot(velocity_track, result.normal_track);
+  contact.spin_velocity = dot(motion.angular_velocity_track, result.normal_track);
+  contact.forward_speed = outboard_sign<T>(frame.side) *
+                          dot(motion.velocity_track, Vector3<T>(frame.axes_track.col(0)));
+  contact.speed = sqrt(dot(motion.velocity_track, motion.velocity_track));
+  result.contact = model(contact);
+  result.penetration_velocity = -contact.normal_velocity;
+  result.force_track = result.contact.normal * result.normal_track +
+                       result.contact.creep.longitudinal * result.longitudinal_track +
+                       result.contact.creep.lateral * result.lateral_track;
+  return result;
+}
+
+}  // namespace detail
+
+/// The forces of the track on a wheelset.
+/// @param track anything with `rail(side)` and `nearest_frame(side, point_track)`.
+/// @param at where the wheelset is, @param motion how it moves, both in the track frame.
+/// @param search StripSearch for any profile, MinimumDistanceSearch for convex ones.
+/// @return patches, forces and the wrench about the axle's centre. The creep moment about a
+/// contact's
+///   normal is neglected (80).
+/// @note Does not allocate. A mirrored input gives the mirrored result to the last bit.
+template <Profile P, class Track, class Search = StripSearch<typename P::Scalar>>
+[[nodiscard]] WheelsetForces<typename P::Scalar> wheelset_forces(
+    const Wheelset<P>& wheelset, const Track& track, const WheelsetPosition<typename P::Scalar>& at,
+    const WheelsetMotion<typename P::Scalar>& motion,
+    const ContactForceModel<typename P::Scalar>& model, const Search& search = {}) {
+  using T = typename P::Scalar;
+  WheelsetForces<T> result;
+  for (const Side side : sides) {
+    const Vector3<T> wheel_track = wheelset.wheel_track(side, at);
+    const RailFrame<T> frame = track.nearest_frame(side, wheel_track);
+    const ContactResult<T> found =
+        search(wheelset.wheel(side), track.rail(side),
+               place_wheel(frame, wheel_track, Vector3<T>(outboard_sign<T>(side) * at.axle_track)));
+    WheelForces<T>& wheel = result.wheels[index_of(side)];
+    wheel.status = found.status;
+    wheel.evaluations = found.evaluations;
+    for (const Patch<T>& patch : found.patches) {
+      const PatchForce<T> force = detail::patch_force(patch, frame, at, motion, model);
+      wheel.force_track += force.force_track;
+      wheel.moment_track +=
+          cross(Vector3<T>(force.position_track - at.position_track), force.force_track);
+      // As many as the search can return.
+      static_cast<void>(wheel.patches.push_back(force));
+    }
+    result.force_track += wheel.force_track;
+    result.moment_track += wheel.moment_track;
+  }
+  return result;
+}
+
+}  // namespace wheelrail

@@ -1,0 +1,264 @@
+#include <limits>
+#include <random>
+#include <string>
+#include <wheelrail/contact/find_contact.hpp>
+#include <wheelrail/contact/minimum_distance.hpp>
+#include <wheelrail/profile/convex_modification.hpp>
+#include <wheelrail/profile/rail_head.hpp>
+#include <wheelrail/profile/s1002.hpp>
+#include <wheelrail/track/tangent_track.hpp>
+
+#include "support/brute_force_contact.hpp"
+#include "support/catch.hpp"
+
+using namespace wheelrail;
+using wheelrail_test::WheelsetPose;
+
+namespace {
+
+using Convex = ConvexModification<PiecewiseProfile<double>>;
+using Track = TangentTrack<RailHead<double>>;
+constexpr MinimumDistanceForm forms[] = {MinimumDistanceForm::wheel_normal,
+                                         MinimumDistanceForm::rail_normal};
+
+Vector3<double> vector_of(const WheelsetPose::Point& p) {
+  return Vector3<double>(p[0], p[1], p[2]);
+}
+
+WheelPlacement<double> place(const Track& track, Side side, const WheelsetPose& pose) {
+  const Vector3<double> wheel_track = vector_of(pose.wheel_origin(side));
+  return place_wheel(track.nearest_frame(side, wheel_track), wheel_track,
+                     vector_of(pose.axle_outwards(side)));
+}
+
+template <class P>
+void set_penetration(WheelsetPose& pose, const Wheel<P>& wheel, const Track& track, Side side,
+                     double penetration) {
+  pose.height = wheel.nominal_radius();
+  for (int i = 0; i < 12; ++i) {
+    const auto result = find_contact(wheel, track.rail(side), place(track, side, pose),
+                                     {.penetration_threshold = -0.2});
+    REQUIRE(!result.patches.empty());
+    const Patch<double>* deepest = &result.patches[0];
+    for (const auto& patch : result.patches) {
+      if (deepest->penetration < patch.penetration) deepest = &patch;
+    }
+    pose.height += (deepest->penetration - penetration) / std::cos(deepest->contact_angle);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("convex_parts: the modified S1002 has two, split where the paper's lines meet",
+          "[contact][reference]") {
+  const auto parts = convex_parts(Convex(s1002<double>()));
+  REQUIRE(parts.size() == 2);
+  // From the coefficients of UIC 510-2: tread tangent at the inflection and flange line [m].
+  CHECK(std::abs(parts[0].upper - -34.122025969e-3) < 1e-12);
+  CHECK(parts[1].lower == parts[0].upper);
+  CHECK(parts[0].lower == s1002<double>().lower());
+  CHECK(parts[1].upper == s1002<double>().upper());
+  CHECK(convex_parts(s1002<double>(S1002Form::standard)).size() == 1);
+}
+
+TEST_CASE("minimum_distance: the Jacobian is that of differences", "[contact][random]") {
+  const Wheel wheel(s1002<double>(), 0.43);
+  const Rail rail(uic50<double>());
+  std::mt19937_64 generator(31);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  using Equations = detail::MinimumDistanceEquations<PiecewiseProfile<double>, RailHead<double>>;
+  int compared = 0;
+  for (const auto form : forms) {
+    for (int i = 0; i < 300; ++i) {
+      WheelPlacement<double> placement;
+      const double yaw = 0.05 * uniform(generator), roll = 0.06 * uniform(generator);
+      placement.position_rail = Vector3<double>(0.01, 0.003, 0.43);
+      placement.sin_yaw = std::sin(yaw);
+      placement.cos_yaw = std::cos(yaw);
+      placement.sin_roll = std::sin(roll);
+      placement.cos_roll = std::cos(roll);
+      const Equations equations(wheel, rail, placement, form);
+      const Equations::Vector x(0.1 * uniform(generator), 0.03 * uniform(generator),
+                                0.1 * uniform(generator), 0.045 * uniform(generator));
+      constexpr double h = 1e-6;
+      // Differences say nothing across a joint.
+      if (piece_of(rail.profile(), x(1) - h) != piece_of(rail.profile(), x(1) + h)) continue;
+      if (piece_of(wheel.profile(), x(3) - h) != piece_of(wheel.profile(), x(3) + h)) continue;
+      ++compared;
+      const auto at = equations(x);
+      for (int k = 0; k < 4; ++k) {
+        const Equations::Vector step = h * Equations::Vector::Unit(k);
+        const Equations::Vector more = equations(Equations::Vector(x + step)).residual;
+        const Equations::Vector less = equations(Equations::Vector(x - step)).residual;
+        const Equations::Vector difference = (more - less) / (2 * h);
+        CAPTURE(i, k);
+        // Entries reach some hundreds (1/R of the corner and slopes of 3).
+        CHECK((difference - at.jacobian.col(k)).norm() < 1e-6 * (1 + at.jacobian.col(k).norm()));
+      }
+    }
+  }
+  CHECK(compared > 550);
+}
+
+TEST_CASE("minimum_distance: finds what find_contact finds on the convex profile",
+          "[contact][random]") {
+  const Wheel wheel(Convex(s1002<double>()), 0.43);
+  const auto parts = convex_parts(wheel.profile());
+  const Track track(uic50<double>());
+  std::mt19937_64 generator(32);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int compared = 0, flange = 0, failures = 0, most_iterations = 0;
+  double worst_penetration = 0, worst_position = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Side side = i % 2 == 0 ? Side::left : Side::right;
+    WheelsetPose pose;
+    pose.yaw = 0.03 * uniform(generator);
+    pose.roll = 0.01 * uniform(generator);
+    pose.lateral_shift = 0.01 * uniform(generator);
+    set_penetration(pose, wheel, track, side, 1e-5 + 2e-4 * std::abs(uniform(generator)));
+    const auto placement = place(track, side, pose);
+    const auto strips = find_contact(wheel, track.rail(side), placement);
+    for (const auto form : forms) {
+      CAPTURE(i, pose.lateral_shift, pose.roll, pose.yaw, pose.height, form);
+      MinimumDistanceOptions<double> options;
+      options.form = form;
+      const auto result =
+          find_contact_by_minimum_distance(wheel, track.rail(side), placement, parts, options);
+      if (result.status != SearchStatus::complete) ++failures;
+      REQUIRE(result.patches.size() == strips.patches.size());
+      for (std::size_t k = 0; k < result.patches.size(); ++k) {
+        const auto& a = result.patches[k];
+        const auto& b = strips.patches[k];
+        worst_penetration = std::max(worst_penetration, std::abs(a.penetration - b.penetration));
+        worst_position = std::max(worst_position, std::abs(a.wheel_lateral - b.wheel_lateral));
+        CHECK(std::abs(a.penetration - b.penetration) < 1e-12);
+        CHECK(std::abs(a.wheel_lateral - b.wheel_lateral) < 1e-9);
+        CHECK(std::abs(a.rail_lateral - b.rail_lateral) < 1e-9);
+        CHECK(std::abs(a.longitudinal - b.longitudinal) < 1e-9);
+        CHECK(std::isnan(a.zone_lower));
+        ++compared;
+        if (b.wheel_lateral < -0.0384) ++flange;
+      }
+      for (const auto& part : parts) {
+        const auto found = minimum_distance(wheel, track.rail(side), placement, part, options);
+        if (found.proximity == ProximityCase::penetrating) {
+          most_iterations = std::max(most_iterations, found.iterations);
+          CHECK(found.residual < 1e-13);
+        }
+      }
+    }
+  }
+  INFO("compared " << compared << ", flange " << flange << ", not complete " << failures
+                   << ", most iterations " << most_iterations << ", worst penetration "
+                   << worst_penetration << ", worst position " << worst_position);
+  CHECK(compared >= 800);
+  CHECK(flange > 40);
+  CHECK(failures == 0);
+  // Newton's method: a handful of steps to the right curves, then two or three that double digits.
+  CHECK(most_iterations <= 20);
+}
+
+TEST_CASE("minimum_distance: tells the three cases of the paper's Fig. 5 apart", "[contact]") {
+  const Wheel wheel(Convex(s1002<double>()), 0.43);
+  const Track track(uic50<double>());
+  const auto parts = convex_parts(wheel.profile());
+  for (const auto form : forms) {
+    for (const double penetration : {-1e-5, 1e-8, -1e-8, 1e-5}) {
+      WheelsetPose pose{0.001, 0.43, 0.0, 0.01};
+      set_penetration(pose, wheel, track, Side::left, penetration);
+      MinimumDistanceOptions<double> options;
+      options.form = form;
+      options.touching_tolerance = 1e-7;
+      const auto found = minimum_distance(wheel, track.rail(Side::left),
+                                          place(track, Side::left, pose), parts[1], options);
+      CHECK(std::abs(found.distance + penetration) < 1e-13);
+      CHECK(found.proximity == (penetration == 1e-5    ? ProximityCase::penetrating
+                                : penetration == -1e-5 ? ProximityCase::apart
+                                                       : ProximityCase::touching));
+    }
+  }
+}
+
+TEST_CASE("minimum_distance: converges quadratically from near by", "[contact]") {
+  const Wheel wheel(Convex(s1002<double>()), 0.43);
+  const Track track(uic50<double>());
+  const auto parts = convex_parts(wheel.profile());
+  WheelsetPose pose{0.001, 0.43, 0.0, 0.01};
+  set_penetration(pose, wheel, track, Side::left, 1e-4);
+  const auto placement = place(track, Side::left, pose);
+  for (const auto form : forms) {
+    MinimumDistanceOptions<double> options;
+    options.form = form;
+    const auto found =
+        minimum_distance(wheel, track.rail(Side::left), placement, parts[1], options);
+    REQUIRE(found.proximity == ProximityCase::penetrating);
+    PointPair<double> start = found.points;
+    start.rail_lateral += 1e-4;
+    start.wheel_lateral += 1e-4;
+    start.wheel_angle += 1e-3;
+    const auto again =
+        minimum_distance(wheel, track.rail(Side::left), placement, parts[1], start, options);
+    CHECK(again.proximity == ProximityCase::penetrating);
+    // 1e-4 m, 1e-7, 1e-13 and the step that finds nothing left.
+    CHECK(again.iterations <= 5);
+    CHECK(std::abs(again.points.wheel_lateral - found.points.wheel_lateral) < 1e-12);
+  }
+}
+
+TEST_CASE("minimum_distance: in the real profile's fillet it fails or says where it ended",
+          "[contact][random]") {
+  const Wheel wheel(s1002<double>(), 0.43);
+  const Track track(uic50<double>());
+  const auto parts = convex_parts(wheel.profile());
+  REQUIRE(parts.size() == 1);
+  std::mt19937_64 generator(33);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int poses = 0, same = 0, other_extremum = 0, failed = 0;
+  while (poses < 200) {
+    WheelsetPose pose;
+    pose.yaw = 0.03 * uniform(generator);
+    pose.lateral_shift = 0.0060 + 0.0006 * uniform(generator);
+    set_penetration(pose, wheel, track, Side::left, 1e-4);
+    const auto placement = place(track, Side::left, pose);
+    ++poses;
+    const auto strips = find_contact(wheel, track.rail(Side::left), placement);
+    double deepest = 0;
+    for (const auto& patch : strips.patches) deepest = std::max(deepest, patch.penetration);
+    const auto found = minimum_distance(wheel, track.rail(Side::left), placement, parts[0]);
+    const bool success = found.proximity == ProximityCase::penetrating ||
+                         found.proximity == ProximityCase::apart ||
+                         found.proximity == ProximityCase::touching;
+    if (!success) {
+      ++failed;
+    } else {
+      // A success is at least a pair of points with common normals.
+      CHECK(found.residual < 1e-12);
+      if (std::abs(-found.distance - deepest) < 1e-12) {
+        ++same;
+      } else {
+        ++other_extremum;
+        CHECK(-found.distance < deepest);
+      }
+    }
+  }
+  INFO("of " << poses << " the deepest point " << same << ", another extremum " << other_extremum
+             << ", reported failures " << failed);
+  CHECK(same + other_extremum + failed == poses);
+  // This is why the strips are searched.
+  CHECK(other_extremum + failed > 0);
+}
+
+TEST_CASE("minimum_distance: NaN gives not_finite", "[contact][bad-input]") {
+  const Wheel wheel(Convex(s1002<double>()), 0.43);
+  const Rail rail(uic50<double>());
+  WheelPlacement<double> placement;
+  placement.position_rail = Vector3<double>(0, 0, 0.4295);
+  const auto parts = convex_parts(wheel.profile());
+  CHECK(find_contact_by_minimum_distance(wheel, rail, placement, parts).patches.size() == 1);
+  placement.sin_roll = std::numeric_limits<double>::quiet_NaN();
+  const auto result = find_contact_by_minimum_distance(wheel, rail, placement, parts);
+  CHECK(result.status == SearchStatus::not_finite);
+  CHECK(result.patches.empty());
+  const auto found = minimum_distance(wheel, rail, placement, parts[1]);
+  CHECK(found.proximity == ProximityCase::not_converged);
+}

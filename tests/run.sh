@@ -1,0 +1,52 @@
+#!/bin/sh
+# Build and run all tests on Debian 12, with g++ and with clang++, warnings as errors.
+set -eu
+
+usage() {
+  cat <<'TEXT'
+usage: tests/run.sh [--compiler g++|clang++] [--help]
+
+Installs what is missing (apt-get; root or sudo), then configures, builds and runs the tests with
+each compiler in build/tests-<compiler>, or with the given one only.
+TEXT
+}
+
+compilers="g++ clang++"
+while [ $# -gt 0 ]; do
+  case $1 in
+    --compiler)
+      [ $# -ge 2 ] || { usage >&2; exit 2; }
+      compilers=$2
+      shift 2
+      ;;
+    --compiler=*) compilers=${1#--compiler=}; shift ;;
+    -h | --help) usage; exit 0 ;;
+    *) usage >&2; exit 2 ;;
+  esac
+done
+
+packages="g++ cmake make libeigen3-dev catch2 libbenchmark-dev"
+for compiler in $compilers; do
+  case $compiler in
+    g++) ;;
+    clang++) packages="$packages clang" ;;
+    *) usage >&2; exit 2 ;;
+  esac
+done
+
+root=$(cd -- "$(dirname -- "$0")/.." && pwd)
+cd -- "$root"
+# shellcheck source=tests/support/install_packages.sh
+. tests/support/install_packages.sh
+# shellcheck disable=SC2086 # a list of words
+install_packages $packages
+
+jobs=$(nproc)
+for compiler in $compilers; do
+  build=build/tests-$compiler
+  echo "== $compiler: $build"
+  cmake -S . -B "$build" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release \
+    -DWHEELRAIL_BUILD_TESTS=ON -DWHEELRAIL_WARNINGS_AS_ERRORS=ON
+  cmake --build "$build" --parallel "$jobs"
+  (cd -- "$build" && ctest --output-on-failure --parallel "$jobs")
+done

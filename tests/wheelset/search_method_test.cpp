@@ -1,0 +1,33 @@
+#include <wheelrail/profile/convex_modification.hpp>
+#include <wheelrail/profile/rail_head.hpp>
+#include <wheelrail/profile/s1002.hpp>
+#include <wheelrail/track/tangent_track.hpp>
+#include <wheelrail/wheelset/search_method.hpp>
+#include <wheelrail/wheelset/wheelset.hpp>
+
+#include "support/catch.hpp"
+
+using namespace wheelrail;
+
+TEST_CASE("StripSearch, MinimumDistanceSearch: the functions that they stand for", "[wheelset]") {
+  const ConvexModification profile(s1002<double>());
+  const Wheelset wheelset(profile, 0.43, 1.5);
+  const TangentTrack track(uic50<double>());
+  const auto at = WheelsetPosition<double>::of(0.001, 0.4297, 0.0, 0.005);
+  const auto placement = place_wheel(wheelset, track, Side::left, at);
+  const auto& wheel = wheelset.wheel(Side::left);
+  const auto& rail = track.rail(Side::left);
+
+  const StripSearch<double> strips{{.strip_spacing = 1e-3}};
+  const auto by_strips = strips(wheel, rail, placement);
+  REQUIRE(by_strips.patches.size() == 1);
+  CHECK(by_strips.evaluations ==
+        find_contact(wheel, rail, placement, {.strip_spacing = 1e-3}).evaluations);
+  CHECK(by_strips.evaluations < find_contact(wheel, rail, placement).evaluations);
+
+  const MinimumDistanceSearch<double> minimum_distance{convex_parts(profile), {}};
+  const auto by_distance = minimum_distance(wheel, rail, placement);
+  REQUIRE(by_distance.patches.size() == 1);
+  CHECK(by_distance.patches[0].penetration ==
+        Approx(by_strips.patches[0].penetration).margin(1e-14));
+}
