@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "support/arguments.hpp"
+#include "support/output.hpp"
 #include "support/profiles.hpp"
 
 namespace {
 
+using examples::plain;
 using wheelrail::Side;
 
 struct Pose {
@@ -28,6 +30,7 @@ std::vector<Pose> read_poses(std::istream& in, const std::string& name) {
     throw std::invalid_argument(name + ":" + std::to_string(number) + ": " + why);
   };
   bool has_header = false;
+  int blank = 0;  // the first empty line since the header: they may only end the file
   while (std::getline(in, line)) {
     ++number;
     if (!line.empty() && line.back() == '\r') line.pop_back();
@@ -36,7 +39,14 @@ std::vector<Pose> read_poses(std::istream& in, const std::string& name) {
       has_header = true;
       continue;
     }
-    if (line.empty()) continue;
+    if (line.empty()) {
+      if (blank == 0) blank = number;
+      continue;
+    }
+    if (blank != 0) {
+      number = blank;
+      fail("a pose row is missing: the line is empty, and more rows follow");
+    }
     double values[4];
     std::size_t begin = 0;
     for (int column = 0; column < 4; ++column) {
@@ -47,14 +57,22 @@ std::vector<Pose> read_poses(std::istream& in, const std::string& name) {
       const std::string field = line.substr(begin, comma - begin);
       char* end = nullptr;
       values[column] = std::strtod(field.c_str(), &end);
+      const bool has_digits = end != field.c_str();
       while (*end == ' ') ++end;
-      if (field.empty() || *end != '\0' || !std::isfinite(values[column])) {
+      // A zero byte inside the field is not its end.
+      const bool whole = end == field.c_str() + field.size();
+      if (!has_digits || !whole || !std::isfinite(values[column])) {
         fail("value " + std::to_string(column + 1) + " is '" + field +
              "', but must be a finite number");
       }
       begin = comma + 1;
     }
     if (begin <= line.size()) fail("the row has more than 4 values: " + header);
+    for (const int column : {2, 3}) {
+      if (std::abs(values[column]) > 1.5) {
+        fail(std::string(column == 2 ? "roll" : "yaw") + " is beyond 1.5 rad");
+      }
+    }
     poses.push_back({values[0], values[1], values[2], values[3]});
   }
   if (in.bad()) throw std::invalid_argument(name + ": cannot be read");
@@ -79,7 +97,7 @@ std::vector<Pose> poses_of(const examples::Arguments& arguments) {
           "--lateral-shift, --roll and --yaw");
     }
     return {{arguments.number("--lateral-shift"), arguments.number("--height"),
-             arguments.number("--roll"), arguments.number("--yaw")}};
+             arguments.within("--roll", -1.5, 1.5), arguments.within("--yaw", -1.5, 1.5)}};
   }
   if (by_value) {
     throw std::invalid_argument("--poses excludes --lateral-shift, --height, --roll and --yaw");
@@ -105,6 +123,7 @@ int search(const examples::Arguments& arguments, const WheelProfile& profile) {
   std::printf(
       "pose,side,patch,wheel_lateral,rail_lateral,wheel_angle,longitudinal,penetration,lower,"
       "upper,contact_angle,rolling_radius\n");
+  const bool check = method == "minimum-distance" && !wheelrail::concave_intervals(profile).empty();
   int exit_code = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Pose& pose = poses[i];
@@ -119,13 +138,23 @@ int search(const examples::Arguments& arguments, const WheelProfile& profile) {
         std::fprintf(stderr, "contact_search: pose %zu, %s wheel: %s\n", i, name_of(side),
                      name_of(found.status));
         exit_code = 3;
+      } else if (check &&
+                 !examples::same_patches(
+                     found.patches,
+                     find_contact(wheelset.wheel(side), track.rail(side), placement).patches)) {
+        std::fprintf(stderr,
+                     "contact_search: pose %zu, %s wheel: the minimum distance method missed a "
+                     "patch: it needs a convex wheel\n",
+                     i, name_of(side));
+        exit_code = 3;
       }
       for (std::size_t k = 0; k < found.patches.size(); ++k) {
         const auto& patch = found.patches[k];
         std::printf("%zu,%s,%zu,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g\n", i,
-                    name_of(side), k, patch.wheel_lateral, patch.rail_lateral, patch.wheel_angle,
-                    patch.longitudinal, patch.penetration, patch.zone_lower, patch.zone_upper,
-                    patch.contact_angle, patch.rolling_radius);
+                    name_of(side), k, patch.wheel_lateral, patch.rail_lateral,
+                    plain(patch.wheel_angle), plain(patch.longitudinal), patch.penetration,
+                    plain(patch.zone_lower), plain(patch.zone_upper), patch.contact_angle,
+                    patch.rolling_radius);
       }
     }
   }
@@ -141,7 +170,7 @@ int main(int argc, char** argv) {
       "z = 0. Roll lifts the left wheel, yaw turns to the left. Lateral coordinates of profiles\n"
       "grow towards the field side. `lower` and `upper` bound the zone of overlap in\n"
       "wheel_lateral; nan with --method minimum-distance, which does not know them.\n"
-      "Exit code 0; 2 on bad input, 3 when a search did not converge (said on standard error).",
+      "Exit code 0; 2 on bad input, 3 when a search failed (said on standard error).",
       {{"--wheel", "NAME", "s1002", "wheel profile: s1002 or s1002-convex"},
        {"--rail", "NAME", "uic50", "rail profile: uic50 (an assumed 50E4 head) or 60e1"},
        {"--nominal-radius", "M", "0.43", "wheel radius at the tread circle [m]"},

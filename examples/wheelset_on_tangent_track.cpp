@@ -9,6 +9,8 @@
 
 namespace {
 
+using wheelrail::Side;
+
 template <class WheelProfile>
 int simulate(const examples::Arguments& given, const WheelProfile& profile) {
   const wheelrail::Wheelset wheelset(profile, given.positive("--nominal-radius"),
@@ -23,24 +25,21 @@ int simulate(const examples::Arguments& given, const WheelProfile& profile) {
   const wheelrail::ContactForceModel<double> model(force);
   examples::WheelsetCase run;
   run.speed = given.positive("--speed");
-  run.duration = given.positive("--duration");
+  run.duration = given.within("--duration", 1e-4, 100);
   run.lateral_shift = given.number("--lateral-shift");
   run.yaw = given.number("--yaw");
   run.mass = given.positive("--mass");
   run.roll_inertia = given.positive("--roll-inertia");
   run.spin_inertia = given.positive("--spin-inertia");
   run.integrator.relative_tolerance = run.integrator.absolute_tolerance =
-      given.positive("--tolerance");
+      given.within("--tolerance", 1e-13, 1e-2);
   run.integrator.maximum_step = given.positive("--maximum-step");
-  if (run.duration / run.report_interval > 1e6) {
-    throw std::invalid_argument("--duration is " + given.text("--duration") +
-                                ", but must be at most 1000 s");
-  }
   const std::string method = given.choice("--method", examples::method_names);
   std::filesystem::path output;
-  if (given.given("--output")) output = examples::prepare_directory(given.text("--output"));
-
   const auto history = examples::with_search(method, profile, [&](const auto& search) {
+    // Throws where the inertia or the start is impossible: before a directory is made.
+    static_cast<void>(examples::WheelsetOnTrack(wheelset, track, model, search, run).start(run));
+    if (given.given("--output")) output = examples::prepare_directory(given.text("--output"));
     return run_wheelset(wheelset, track, model, search, run);
   });
   const std::string summary = "wheel: " + given.text("--wheel") +
@@ -62,8 +61,28 @@ int simulate(const examples::Arguments& given, const WheelProfile& profile) {
     std::fprintf(stderr, "wheelset_on_tangent_track: the run stopped at %.6g s: %s\n",
                  history.end_time, name_of(history.status));
   }
-  const bool good =
-      history.failures == 0 && history.status == wheelrail::IntegrationStatus::finished;
+  // Not timed: what the minimum distance method missed on a wheel that is not convex.
+  std::size_t incomplete = 0;
+  if (method == "minimum-distance" && !wheelrail::concave_intervals(profile).empty()) {
+    for (const auto& record : history.records) {
+      const wheelrail::WheelsetPosition<double> at{record.state.position_world, record.axle_track};
+      bool same = true;
+      for (const Side side : wheelrail::sides) {
+        const auto placement = place_wheel(wheelset, track, side, at);
+        const auto all = find_contact(wheelset.wheel(side), track.rail(side), placement);
+        same = same && examples::same_patches(record.forces.wheel(side).patches, all.patches);
+      }
+      incomplete += same ? 0U : 1U;
+    }
+  }
+  if (incomplete > 0) {
+    std::fprintf(stderr,
+                 "wheelset_on_tangent_track: at %zu of %zu instants the minimum distance method "
+                 "missed a patch: it needs a convex wheel\n",
+                 incomplete, history.records.size());
+  }
+  const bool good = history.failures == 0 && incomplete == 0 &&
+                    history.status == wheelrail::IntegrationStatus::finished;
   return good ? 0 : 3;
 }
 
@@ -80,7 +99,7 @@ int main(int argc, char** argv) {
        {"--rail", "NAME", "uic50", "rail profile: uic50 (an assumed 50E4 head) or 60e1"},
        {"--method", "NAME", "strip", "contact search: strip or minimum-distance"},
        {"--speed", "M/S", "10", "forward speed at the start [m/s]"},
-       {"--duration", "S", "10", "of the run [s], at most 1000"},
+       {"--duration", "S", "10", "of the run [s], 0.0001 to 100"},
        {"--lateral-shift", "M", "0.002", "at the start, to the left [m]"},
        {"--yaw", "RAD", "0", "at the start, to the left [rad]"},
        {"--output", "DIR", "", "where the tables go; made if need be; nothing is written without"},
@@ -93,7 +112,8 @@ int main(int argc, char** argv) {
        {"--profile-spacing", "M", "1.5", "distance of the wheels' tread circles [m]"},
        {"--gauge", "M", "1.435", "track gauge, 14 mm below the rails' highest points [m]"},
        {"--inclination", "SLOPE", "0.05", "rail inclination towards the track's middle [-]"},
-       {"--tolerance", "TOL", "1e-5", "relative and absolute tolerance of the integrator [-]"},
+       {"--tolerance", "TOL", "1e-5",
+        "relative and absolute tolerance of the integrator [-], 1e-13 to 0.01"},
        {"--maximum-step", "S", "0.001", "longest step of the integrator [s]"}});
   return examples::run(argc, argv, arguments, [](const examples::Arguments& given) {
     return examples::with_wheel_profile(

@@ -2,6 +2,7 @@
 // The command line of the examples: options with defaults, units and --help, and errors that name
 // the option, the value and the rule. `--name value` and `--name=value` both work.
 
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -79,6 +80,16 @@ class Arguments {
     return value;
   }
 
+  [[nodiscard]] double within(const std::string& name, double lower, double upper) const {
+    const double value = number(name);
+    if (value < lower || upper < value) {
+      char rule[80];
+      std::snprintf(rule, sizeof rule, ", but must be between %g and %g", lower, upper);
+      throw std::invalid_argument(name + " is " + text(name) + rule);
+    }
+    return value;
+  }
+
   // One of the given words.
   [[nodiscard]] std::string choice(const std::string& name,
                                    const std::vector<std::string>& words) const {
@@ -122,9 +133,18 @@ template <class Body>
   const std::string path = argc > 0 ? argv[0] : "example";
   try {
     if (!arguments.parse(argc, argv)) return 0;
-    return body(arguments);
+    const int exit_code = body(arguments);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      throw std::runtime_error("cannot write to standard output");
+    }
+    return exit_code;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", path.substr(path.find_last_of('/') + 1).c_str(), error.what());
+    std::string line = path.substr(path.find_last_of('/') + 1) + ": " + error.what();
+    // Names and values may hold line breaks; the message may not.
+    for (char& c : line) {
+      if (std::iscntrl(static_cast<unsigned char>(c)) != 0) c = '?';
+    }
+    std::fprintf(stderr, "%s\n", line.c_str());
     return 2;
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Files of the examples: made whole or not at all.
 
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <filesystem>
@@ -18,6 +19,11 @@ namespace examples {
   std::vsnprintf(text, sizeof text, pattern, values);
   va_end(values);
   return text;
+}
+
+// Zero and NaN without their signs, for tables: 0 and nan, never -0 or -nan.
+[[nodiscard]] inline double plain(double x) {
+  return std::isnan(x) ? std::nan("") : x + 0.0;
 }
 
 // Makes the directory and checks that it can be written to, before a long run.

@@ -32,6 +32,32 @@ template <wheelrail::Profile P, class Body>
   return body(wheelrail::StripSearch<double>{});
 }
 
+[[nodiscard]] inline const wheelrail::Patch<double>& patch_of(
+    const wheelrail::Patch<double>& patch) {
+  return patch;
+}
+[[nodiscard]] inline const wheelrail::Patch<double>& patch_of(
+    const wheelrail::PatchForce<double>& force) {
+  return force.patch;
+}
+
+// Whether `found` holds the patches of `all` and no others, as far as they are deeper than 0.1 um:
+// on a wheel that is not convex the minimum distance method can miss a patch without noticing.
+template <class Found, class All>
+[[nodiscard]] bool same_patches(const Found& found, const All& all) {
+  const auto all_within = [](const auto& some, const auto& others) {
+    for (const auto& a : some) {
+      bool matched = !(patch_of(a).penetration > 1e-7);
+      for (const auto& b : others) {
+        matched = matched || std::abs(patch_of(a).penetration - patch_of(b).penetration) < 1e-9;
+      }
+      if (!matched) return false;
+    }
+    return true;
+  };
+  return all_within(found, all) && all_within(all, found);
+}
+
 [[nodiscard]] inline RailHead rail_profile(const std::string& name) {
   return name == "60e1" ? wheelrail::rail_60e1<double>() : wheelrail::uic50<double>();
 }

@@ -84,10 +84,11 @@ namespace examples {
             "%.6g,%s,%zu,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.8g,"
             "%.8g,%.8g,%.8g,%.8g,%s\n",
             r.time, name_of(side), k, patch.wheel_lateral, patch.rail_lateral, patch.longitudinal,
-            patch.penetration, patch.zone_lower, patch.zone_upper, patch.contact_angle,
-            patch.rolling_radius, contact.normal, contact.creep.longitudinal, contact.creep.lateral,
-            contact.creepage.longitudinal, contact.creepage.lateral, contact.creepage.spin,
-            contact.ellipse.a, contact.ellipse.b, name_of(contact.hertz_status));
+            patch.penetration, plain(patch.zone_lower), plain(patch.zone_upper),
+            patch.contact_angle, patch.rolling_radius, contact.normal, contact.creep.longitudinal,
+            contact.creep.lateral, contact.creepage.longitudinal, contact.creepage.lateral,
+            contact.creepage.spin, contact.ellipse.a, contact.ellipse.b,
+            name_of(contact.hertz_status));
       }
     }
   }

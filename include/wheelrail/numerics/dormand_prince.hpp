@@ -31,7 +31,12 @@ class DormandPrince {
 
   /// @throws std::invalid_argument naming the option that is out of its range.
   explicit DormandPrince(const DormandPrinceOptions<T>& options = {})
-      : options_(detail::require_valid(options)) {}
+      : options_(detail::require_valid(options)) {
+    // A solver that has not started can be copied too.
+    for (State* column : {&state_, &trial_}) column->setZero();
+    for (State& column : stages_) column.setZero();
+    for (State& column : dense_) column.setZero();
+  }
 
   /// Begins at (@p t0, @p y0), forgetting everything before; also after a jump of the state.
   /// @return stepped, or not_finite where t0, y0 or f(t0, y0) is not.

@@ -1,0 +1,1 @@
+// The source of the object that owns the tests' precompiled headers.
