@@ -13,7 +13,6 @@
 
 namespace {
 
-using examples::plain;
 using wheelrail::Side;
 
 struct Pose {
@@ -150,11 +149,12 @@ int search(const examples::Arguments& arguments, const WheelProfile& profile) {
       }
       for (std::size_t k = 0; k < found.patches.size(); ++k) {
         const auto& patch = found.patches[k];
-        std::printf("%zu,%s,%zu,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g\n", i,
-                    name_of(side), k, patch.wheel_lateral, patch.rail_lateral,
-                    plain(patch.wheel_angle), plain(patch.longitudinal), patch.penetration,
-                    plain(patch.zone_lower), plain(patch.zone_upper), patch.contact_angle,
-                    patch.rolling_radius);
+        std::string row = examples::format("%zu,%s,%zu", i, name_of(side), k);
+        examples::append_fields(row, 12,
+                                {patch.wheel_lateral, patch.rail_lateral, patch.wheel_angle,
+                                 patch.longitudinal, patch.penetration, patch.zone_lower,
+                                 patch.zone_upper, patch.contact_angle, patch.rolling_radius});
+        std::printf("%s\n", row.c_str());
       }
     }
   }

@@ -15,7 +15,9 @@
 namespace {
 
 using namespace wheelrail;
+using examples::append_fields;
 using examples::format;
+using examples::plain;
 using std::filesystem::path;
 
 constexpr double nominal_radius = 0.43;
@@ -33,10 +35,12 @@ std::string profiles_table(const examples::RealWheel& real, const examples::Conv
     const auto r = real.evaluate(u);
     const auto c = convex.evaluate(u);
     // The paper's ordinate f_w = -(R0 + F), from the axle.
-    text += format("%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", u / mm,
-                   -(nominal_radius + r.value) / mm, -(nominal_radius + c.value) / mm, -r.slope,
+    text += format("%.9g", plain(u / mm));
+    append_fields(text, 9,
+                  {-(nominal_radius + r.value) / mm, -(nominal_radius + c.value) / mm, -r.slope,
                    -c.slope, -r.second_derivative * mm, -c.second_derivative * mm,
-                   curvature(r) * mm, curvature(c) * mm);
+                   curvature(r) * mm, curvature(c) * mm});
+    text += "\n";
   }
   return text;
 }
@@ -55,8 +59,6 @@ ResidualMap residual_map(const Wheelset<examples::RealWheel>& wheelset,
   const auto placement = place_wheel(wheelset, track, Side::left, set_down.position);
   const auto& wheel = wheelset.wheel(Side::left);
   const auto& rail = track.rail(Side::left);
-  const wheelrail::detail::MinimumDistanceEquations equations(wheel, rail, placement,
-                                                              MinimumDistanceForm::wheel_normal);
   ResidualMap map;
   map.residual = "# wheel_lateral_mm rail_lateral_mm log10_residual; contact at " +
                  format("%.6f %.6f\n", contact.wheel_lateral / mm, contact.rail_lateral / mm);
@@ -66,8 +68,10 @@ ResidualMap residual_map(const Wheelset<examples::RealWheel>& wheelset,
       const double rail_lateral = contact.rail_lateral + k * 0.1 * mm;
       const bool on_rail =
           rail.profile().lower() <= rail_lateral && rail_lateral <= rail.profile().upper();
-      const auto at = equations(Vector4<double>(0, rail_lateral, 0, wheel_lateral));
-      const double norm = std::hypot(at.residual(0), at.residual(2));  // [m] and [-], as the paper
+      const auto residual = minimum_distance_residual(
+          wheel, rail, placement,
+          {.rail_lateral = rail_lateral, .wheel_angle = 0, .wheel_lateral = wheel_lateral});
+      const double norm = std::hypot(residual(0), residual(2));  // [m] and [-], as the paper
       map.residual += on_rail ? format("%.4f %.4f %.6f\n", wheel_lateral / mm, rail_lateral / mm,
                                        std::log10(std::max(norm, 1e-8)))
                               : format("%.4f %.4f NaN\n", wheel_lateral / mm, rail_lateral / mm);
@@ -121,8 +125,8 @@ std::string comparison_table(const std::vector<Scenario>& scenarios) {
     text += format("%.6g", scenarios.front().history.records[i].time);
     for (const Scenario& s : scenarios) {
       const auto& record = s.history.records[i];
-      text += format(",%.15g,%.12g", record.lateral_shift() / mm,
-                     1e-3 * examples::normal_force_of(record.forces.wheel(Side::left)));
+      append_fields(text, 15, {record.lateral_shift() / mm});
+      append_fields(text, 12, {1e-3 * examples::normal_force_of(record.forces.wheel(Side::left))});
     }
     text += "\n";
   }
@@ -134,9 +138,11 @@ std::string contact_points_table(const examples::WheelsetHistory& history) {
   std::string text = "time,wheel_lateral_mm,profile_mm,rail_lateral_mm\n";
   for (std::size_t i = 0; i < history.records.size(); i += 50) {
     for (const auto& force : history.records[i].forces.wheel(Side::left).patches) {
-      text +=
-          format("%.6g,%.9g,%.9g,%.9g\n", history.records[i].time, force.patch.wheel_lateral / mm,
-                 -force.patch.rolling_radius / mm, force.patch.rail_lateral / mm);
+      text += format("%.6g", history.records[i].time);
+      append_fields(text, 9,
+                    {force.patch.wheel_lateral / mm, -force.patch.rolling_radius / mm,
+                     force.patch.rail_lateral / mm});
+      text += "\n";
     }
   }
   return text;
@@ -169,17 +175,17 @@ std::string report(const std::vector<Scenario>& scenarios, const examples::Wheel
         static_cast<double>(h.evaluations) / static_cast<double>(h.searches), h.failures, h.seconds,
         h.end_time / h.seconds, h.seconds / reference);
   }
+  const double apart = greatest_difference(scenarios[0].history, scenarios[1].history);
   text += format(
       "\nConvex profile, strips against minimum distance: lateral shifts at most %.3g nm apart "
-      "over "
-      "the run (the paper: less than 10 nm almost at its end).\n\n",
-      1e9 * greatest_difference(scenarios[0].history, scenarios[1].history));
+      "over the run (the paper: less than 10 nm almost at its end).%s\n\n",
+      1e9 * apart,
+      apart < 1e-12 ? " Both searches are exact to rounding, and rounding is what is left." : "");
   text +=
       "Kinematic wavelengths of this set-up at 2 mm, from rigid contact: 35.9 m (real) and 38.4 m "
-      "(convex). The paper's time ratios (Table 3): 1.00, 2.39, 2.41. Evaluations are strips, or "
-      "Newton systems of the minimum distance method. The real-time factor is simulated over "
-      "elapsed "
-      "time; times are of one run and differ from run to run, ratios less so.\n\n"
+      "(convex). The paper's time ratios (Table 3): 1.00, 2.39, 2.41. Evaluations: strips and "
+      "Newton systems. The real-time factor is simulated over elapsed time; times are of one run "
+      "and differ from run to run, ratios less so.\n\n"
       "![Fig. 12](fig12_lateral_position.png)\n![Fig. 13](fig13_contact_points.png)\n"
       "![Fig. 14](fig14_normal_force.png)\n![Fig. 3](fig03_profiles.png)\n"
       "![Fig. 7](fig07_residuals.png)\n";

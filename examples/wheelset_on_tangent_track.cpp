@@ -27,17 +27,24 @@ int simulate(const examples::Arguments& given, const WheelProfile& profile) {
   run.speed = given.positive("--speed");
   run.duration = given.within("--duration", 1e-4, 100);
   run.lateral_shift = given.number("--lateral-shift");
-  run.yaw = given.number("--yaw");
+  run.yaw = given.within("--yaw", -0.1, 0.1);
   run.mass = given.positive("--mass");
   run.roll_inertia = given.positive("--roll-inertia");
   run.spin_inertia = given.positive("--spin-inertia");
+  // The moments about x and z are both the roll inertia: what is left of the triangle inequality.
+  if (run.spin_inertia > 2 * run.roll_inertia) {
+    throw std::invalid_argument(
+        "--spin-inertia is " + given.text("--spin-inertia") +
+        ", but must be at most twice --roll-inertia, which is " + given.text("--roll-inertia") +
+        ": no body has a moment of inertia greater than the sum of its other two");
+  }
   run.integrator.relative_tolerance = run.integrator.absolute_tolerance =
       given.within("--tolerance", 1e-13, 1e-2);
   run.integrator.maximum_step = given.positive("--maximum-step");
   const std::string method = given.choice("--method", examples::method_names);
   std::filesystem::path output;
   const auto history = examples::with_search(method, profile, [&](const auto& search) {
-    // Throws where the inertia or the start is impossible: before a directory is made.
+    // Throws where the start is impossible: before a directory is made.
     static_cast<void>(examples::WheelsetOnTrack(wheelset, track, model, search, run).start(run));
     if (given.given("--output")) output = examples::prepare_directory(given.text("--output"));
     return run_wheelset(wheelset, track, model, search, run);
@@ -100,12 +107,13 @@ int main(int argc, char** argv) {
        {"--method", "NAME", "strip", "contact search: strip or minimum-distance"},
        {"--speed", "M/S", "10", "forward speed at the start [m/s]"},
        {"--duration", "S", "10", "of the run [s], 0.0001 to 100"},
-       {"--lateral-shift", "M", "0.002", "at the start, to the left [m]"},
-       {"--yaw", "RAD", "0", "at the start, to the left [rad]"},
+       {"--lateral-shift", "M", "0.002",
+        "at the start, to the left [m]; no flange may stand on a rail head"},
+       {"--yaw", "RAD", "0", "at the start, to the left [rad], -0.1 to 0.1"},
        {"--output", "DIR", "", "where the tables go; made if need be; nothing is written without"},
        {"--mass", "KG", "1000", "of the wheelset [kg]"},
        {"--roll-inertia", "KG_M2", "600", "about the longitudinal and vertical axis [kg m2]"},
-       {"--spin-inertia", "KG_M2", "80", "about the axle [kg m2]"},
+       {"--spin-inertia", "KG_M2", "80", "about the axle [kg m2], at most twice --roll-inertia"},
        {"--friction", "MU", "0.25", "friction coefficient [-]"},
        {"--restitution", "CE", "0.75", "ratio of opening to closing normal force, c_e [-]"},
        {"--nominal-radius", "M", "0.43", "wheel radius at the tread circle [m]"},

@@ -4,14 +4,19 @@ set -eu
 
 usage() {
   cat <<'TEXT'
-usage: tests/run.sh [--compiler g++|clang++] [--help]
+usage: tests/run.sh [--compiler g++|clang++] [--slow] [--help]
 
 Installs what is missing (apt-get; root or sudo), then configures, builds and runs the tests with
 each compiler in build/tests-<compiler>, or with the given one only.
+
+  --compiler NAME  g++ or clang++ only
+  --slow           also run, after the others, the tests that are hidden because they take long
+  --help           print this
 TEXT
 }
 
 compilers="g++ clang++"
+slow=no
 while [ $# -gt 0 ]; do
   case $1 in
     --compiler)
@@ -20,6 +25,7 @@ while [ $# -gt 0 ]; do
       shift 2
       ;;
     --compiler=*) compilers=${1#--compiler=}; shift ;;
+    --slow) slow=yes; shift ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 2 ;;
   esac
@@ -41,6 +47,18 @@ cd -- "$root"
 # shellcheck disable=SC2086 # a list of words
 install_packages $packages
 
+# Run the tests tagged [slow] of each test program in the folder $1 that has any.
+run_slow_tests() {
+  for program in "$1"/*_test; do
+    # The list's exit code is the number of tests in it.
+    names=$("$program" --list-test-names-only "[slow]" || true)
+    if [ -n "$names" ]; then
+      echo "== $program [slow]"
+      "$program" "[slow]"
+    fi
+  done
+}
+
 jobs=$(nproc)
 for compiler in $compilers; do
   build=build/tests-$compiler
@@ -49,4 +67,7 @@ for compiler in $compilers; do
     -DWHEELRAIL_BUILD_TESTS=ON -DWHEELRAIL_WARNINGS_AS_ERRORS=ON
   cmake --build "$build" --parallel "$jobs"
   (cd -- "$build" && ctest --output-on-failure --parallel "$jobs")
+  if [ "$slow" = yes ]; then
+    run_slow_tests "$build/tests"
+  fi
 done

@@ -2,7 +2,7 @@
 # curvatures. Needs `data`, the folder with the tables.
 set datafile separator ","
 file = data."/fig03_profiles.csv"
-set multiplot layout 4,2 columnsfirst title "S1002, nominal radius 430 mm: real (left) and convex (right)"
+set multiplot layout 4,2 columnsfirst title "S1002, nominal radius 430 mm: real (left) and convex (right); f_w' is clipped at -4, f_w'' at 1/mm"
 set xrange [-72:62]
 set xlabel "lateral coordinate u_w [mm]"
 set grid

@@ -17,9 +17,9 @@ plot file every ::1 using 1:2 with lines lw 4 lc rgb "#f0a030" title "convex, mi
      file every ::1 using 1:6 with lines lw 2 lc rgb "#1f4e9c" title "S1002, strips"
 set origin 0, 0
 set size 1, 0.34
-set title "convex profile: strips less minimum distance (the paper: within 10 nm)"
-set ylabel "difference [nm]"
+set title "convex profile: strips less minimum distance (the paper: within 10 nm, 10^7 fm)"
+set ylabel "difference [fm]"
 set format y "%g"
 unset key
-plot file every ::1 using 1:(($4 - $2) * 1e6) with lines lw 1 lc rgb "#c02020"
+plot file every ::1 using 1:(($4 - $2) * 1e12) with lines lw 1 lc rgb "#c02020"
 unset multiplot

@@ -2,9 +2,10 @@
 # away. Needs `data`.
 set datafile separator ","
 file = data."/fig12_fig14_wheelset.csv"
-set title "Normal force on the left wheel, wheelset on a tangent track at 10 m/s"
+set title "Normal force on the left wheel, wheelset on a tangent track at 10 m/s, after the first second"
 set xlabel "time [s]"
 set ylabel "normal force [kN]"
+set format y "%.3f"
 set xrange [1:*]
 set grid
 set key outside top center horizontal

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
 
@@ -24,6 +25,11 @@ namespace examples {
 // Zero and NaN without their signs, for tables: 0 and nan, never -0 or -nan.
 [[nodiscard]] inline double plain(double x) {
   return std::isnan(x) ? std::nan("") : x + 0.0;
+}
+
+// Appends ",value" for each value, plain, with that many significant digits.
+inline void append_fields(std::string& text, int digits, std::initializer_list<double> values) {
+  for (const double value : values) text += format(",%.*g", digits, plain(value));
 }
 
 // Makes the directory and checks that it can be written to, before a long run.

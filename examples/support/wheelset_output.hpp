@@ -46,9 +46,10 @@ namespace examples {
   for (const WheelsetRecord& r : history.records) {
     const auto& position = r.state.position_world;
     const double energy = kinetic_energy(body, r.state) + run.mass * run.gravity * position.z();
-    text += format("%.6g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g,%.12g", r.time,
-                   r.lateral_shift(), r.yaw(), r.roll(), position.z(), position.x(),
-                   r.state.velocity_world.x(), r.state.velocity_world.y(), energy);
+    text += format("%.6g", r.time);
+    append_fields(text, 12,
+                  {r.lateral_shift(), r.yaw(), r.roll(), position.z(), position.x(),
+                   r.state.velocity_world.x(), r.state.velocity_world.y(), energy});
     for (const auto& wheel : r.forces.wheels) {
       const auto* deepest = main_patch(wheel);
       const wheelrail::Patch<double> none{.wheel_lateral = std::nan(""),
@@ -57,11 +58,11 @@ namespace examples {
                                           .contact_angle = std::nan(""),
                                           .rolling_radius = std::nan("")};
       const auto& patch = deepest != nullptr ? deepest->patch : none;
-      text +=
-          format(",%zu,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g", wheel.patches.size(),
-                 normal_force_of(wheel), wheel.force_track.x(), wheel.force_track.y(),
-                 wheel.force_track.z(), patch.wheel_lateral, patch.rail_lateral, patch.penetration,
-                 patch.contact_angle, patch.rolling_radius);
+      text += format(",%zu", wheel.patches.size());
+      append_fields(text, 10,
+                    {normal_force_of(wheel), wheel.force_track.x(), wheel.force_track.y(),
+                     wheel.force_track.z(), patch.wheel_lateral, patch.rail_lateral,
+                     patch.penetration, patch.contact_angle, patch.rolling_radius});
     }
     text += "\n";
   }
@@ -80,15 +81,16 @@ namespace examples {
       for (std::size_t k = 0; k < patches.size(); ++k) {
         const auto& patch = patches[k].patch;
         const auto& contact = patches[k].contact;
-        text += format(
-            "%.6g,%s,%zu,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.10g,%.8g,"
-            "%.8g,%.8g,%.8g,%.8g,%s\n",
-            r.time, name_of(side), k, patch.wheel_lateral, patch.rail_lateral, patch.longitudinal,
-            patch.penetration, plain(patch.zone_lower), plain(patch.zone_upper),
-            patch.contact_angle, patch.rolling_radius, contact.normal, contact.creep.longitudinal,
-            contact.creep.lateral, contact.creepage.longitudinal, contact.creepage.lateral,
-            contact.creepage.spin, contact.ellipse.a, contact.ellipse.b,
-            name_of(contact.hertz_status));
+        text += format("%.6g,%s,%zu", r.time, name_of(side), k);
+        append_fields(
+            text, 10,
+            {patch.wheel_lateral, patch.rail_lateral, patch.longitudinal, patch.penetration,
+             patch.zone_lower, patch.zone_upper, patch.contact_angle, patch.rolling_radius,
+             contact.normal, contact.creep.longitudinal, contact.creep.lateral});
+        append_fields(text, 8,
+                      {contact.creepage.longitudinal, contact.creepage.lateral,
+                       contact.creepage.spin, contact.ellipse.a, contact.ellipse.b});
+        text += format(",%s\n", name_of(contact.hertz_status));
       }
     }
   }
@@ -107,7 +109,7 @@ template <class Value>
     if (history.end_time > 2 && r.time < 1) continue;
     const auto* patch = main_patch(r.forces.wheel(side));
     if (patch == nullptr) continue;
-    const double x = value(patch->patch);
+    const double x = plain(value(patch->patch));
     range.least = std::isnan(range.least) ? x : std::min(range.least, x);
     range.greatest = std::isnan(range.greatest) ? x : std::max(range.greatest, x);
   }

@@ -11,6 +11,8 @@
 #include <wheelrail/numerics/integrate.hpp>
 #include <wheelrail/wheelrail.hpp>
 
+#include "output.hpp"
+
 namespace examples {
 
 using wheelrail::Side;
@@ -32,6 +34,11 @@ struct WheelsetCase {
   wheelrail::DormandPrinceOptions<double> integrator{
       .relative_tolerance = 1e-5, .absolute_tolerance = 1e-5, .maximum_step = 1e-3};
 };
+
+// How far outside the tread circle a wheel may touch its rail at the start [m]: there, 16 mm above
+// the tread, the steepest part of the S1002's flange ends. Further out the wheel has climbed and
+// its flange stands on the rail head.
+constexpr double greatest_flange_contact = 0.016;
 
 // The equations of motion of a wheelset on a track; world and track frame are the same.
 template <class Wheelset, class Track, class Search>
@@ -80,15 +87,29 @@ class WheelsetOnTrack {
     return kinetic_energy(body_, state) + body_.mass() * gravity_ * state.position_world.z();
   }
 
-  // At rest relative to its rolling: the wheels just above the rails.
+  // At rest relative to its rolling: the wheels just above the rails. Throws std::invalid_argument,
+  // naming the option of wheelset_on_tangent_track, where they cannot stand on them.
   [[nodiscard]] wheelrail::RigidBodyState<double> start(const WheelsetCase& run) const {
     const auto set_down =
         touching_position(wheelset_, track_, run.lateral_shift, run.yaw, {.gap = run.starting_gap});
+    const std::string at = format("--lateral-shift is %g m, but ", run.lateral_shift);
+    if (set_down.status == wheelrail::SolveStatus::not_finite) {
+      throw std::invalid_argument(at + "must leave each wheel over its rail");
+    }
     if (set_down.status != wheelrail::SolveStatus::converged) {
       throw std::invalid_argument(
-          "the wheelset cannot be set down on the rails at the lateral "
-          "shift " +
-          std::to_string(run.lateral_shift) + " m (" + name_of(set_down.status) + ")");
+          at + format("with --yaw %g the wheelset cannot be set down on the rails there (%s)",
+                      run.yaw, name_of(set_down.status)));
+    }
+    for (const Side side : wheelrail::sides) {
+      const auto& contact = set_down.patches[wheelrail::index_of(side)];
+      const double outside = contact.rolling_radius - wheelset_.wheel(side).nominal_radius();
+      if (outside > greatest_flange_contact) {
+        throw std::invalid_argument(
+            at + format("must keep the flanges beside the rail heads: the %s one would stand on "
+                        "its rail, touching %.1f mm outside the tread circle (at most %g mm)",
+                        name_of(side), 1e3 * outside, 1e3 * greatest_flange_contact));
+      }
     }
     wheelrail::RigidBodyState<double> state;
     state.position_world = set_down.position.position_track;
@@ -136,7 +157,7 @@ struct WheelsetHistory {
   int steps = 0;
   int rejected_steps = 0;
   long searches = 0;     // one wheel on its rail, in the integration only
-  long evaluations = 0;  // strips, or Newton systems, in these searches
+  long evaluations = 0;  // strips and Newton systems in these searches
   long failures = 0;     // searches that were not complete
   double seconds = 0;    // wall time of the integration, records included
 };

@@ -9,13 +9,16 @@
 ///
 /// | frame | origin | x | y | z |
 /// |---|---|---|---|---|
-/// | track | midway between the rails, level with the heads' highest points | forward | left | up |
-/// | rail  | the rail profile's origin | y x z: along the rail, forward on the left, backward on
-/// the right | the profile's lateral axis, to the field side | up, leaning with the rail | | wheel
-/// | the wheel profile's origin, on the axle | y x z | along the axle, to the field side | up | |
-/// contact | the contact point | forward, along the strip | left, in the contact plane | from the
-/// rail into the wheel | | body, world | dynamics/ only: a body's principal axes; inertial axes,
-/// for a tangent track the track's | | | |
+/// | track | midway between the rails, level with the heads' tops | forward | left | up |
+/// | rail | the rail profile's origin | y x z, along the rail | to the field side | up |
+/// | wheel | the wheel profile's origin, on the axle | y x z | outwards along the axle | up |
+/// | contact | the contact point | forward | left, in the contact plane | from rail into wheel |
+/// | body (dynamics/) | the centre of mass | principal axis | principal axis | principal axis |
+/// | world (dynamics/) | inertial; on a tangent track the track frame | | | |
+///
+/// The rail frame's y is the profile's lateral axis and its z leans with the rail; x points forward
+/// on the left and backward on the right, as does the wheel frame's. The contact frame's x lies
+/// along the strip of the wheel.
 ///
 /// Lateral profile coordinates grow to the field side on both wheels and both rails. A wheel's
 /// profile value F adds to the nominal radius; a rail's is the height. Both point out of the body.
@@ -31,21 +34,29 @@
 /// positive where a body is convex. Contact angle: slope of the contact plane against the track
 /// plane, rising to the field side, so positive on the flanges of both wheels. Wheel angle:
 /// right-handed about the axle's direction to the field side, zero in the plane through the axle
-/// that is upright in the rail's cross-section.
-/// Creepages are those of the wheel against the rail; forces are those on the wheel.
+/// that is upright in the rail's cross-section. Creepages are those of the wheel against the rail;
+/// forces are those on the wheel.
 ///
-/// Symbols:
+/// Depth: a contact search needs penetrations smaller than the rail's corner radius (13 mm). Deeper
+/// down the nearest point of the rail, which penetration is measured to, is no longer unique.
+///
+/// Symbols. "coming" names are kept for what is not in the library yet.
 ///
 /// | name | paper | CONTACT | EN 15302 |
 /// |---|---|---|---|
 /// | wheel_lateral | u_w | -y_w left, y_w right wheel | y outboard |
-/// | rail_lateral | u_r | -y_r left, y_r right rail | y (rail A: negative to the gauge) |
+/// | rail_lateral | u_r | -y_r left, y_r right rail (1) | y (rail A: negative to the gauge) |
 /// | wheel_angle | s_w | | |
 /// | longitudinal | Delta x | x_cp | |
 /// | penetration | delta | approach | |
 /// | contact_angle | gamma_r plus the inclination | delta (its z points down) | |
 /// | rolling_radius | R0 + F = -f_w | r0 + z_w | r |
 /// | nominal_radius | R0 | r0 | r0 |
-/// | rolling_radius_difference (left less right) | | | -Delta r (right less left) |
-/// | creepage.longitudinal, .lateral, .spin | xi_x, xi_y, phi | cksi, ceta, cphi (y right, z down)
-/// | | | HertzEllipse a, b | a, b | aa, bb | | | conicity | | | tan gamma_e |
+/// | creepage.longitudinal, .lateral, .spin | xi_x, xi_y, phi | cksi, ceta, cphi (2) | |
+/// | HertzEllipse a, b | a, b | aa, bb | |
+/// | rolling_radius_difference, left less right (coming) | | | -Delta r (right less left) |
+/// | conicity (coming) | | | tan gamma_e |
+///
+/// (1) Up to origin and inclination: CONTACT counts y_r level with the track, from the highest
+/// point of the inclined head; rail_lateral runs along the profile's own axis from its origin.
+/// (2) With y to the right and z down.

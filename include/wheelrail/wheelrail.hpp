@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// All of wheelrail but the rigid bodies (dynamics/) and files (io/). Frames, axes, signs and units
-/// are in conventions.hpp.
+/// All of wheelrail but the rigid bodies (dynamics/), files (io/) and the integrator of numerics/.
+/// Frames, axes, signs and units are in conventions.hpp.
 
 #include <wheelrail/contact/find_contact.hpp>
 #include <wheelrail/contact/minimum_distance.hpp>

@@ -15,6 +15,7 @@ WheelPlacement<double> placement_of(Side side, double yaw, double roll) {
   placement.position_rail = Vector3<double>(0.2, 0.003, 0.43);
   placement.sin_yaw = std::sin(yaw);
   placement.cos_yaw = std::cos(yaw);
+  placement.tan_yaw = placement.sin_yaw / placement.cos_yaw;
   placement.sin_roll = std::sin(roll);
   placement.cos_roll = std::cos(roll);
   return placement;
@@ -118,7 +119,7 @@ TEST_CASE("locus_point: there is none where the slope outruns the yaw", "[contac
   CHECK(!locus_point(wheel, placement_of(Side::left, std::atan(0.501), 0), 0.01, at).exists);
   CHECK(!locus_point(wheel, placement_of(Side::right, std::atan(-0.501), 0), 0.01, at).exists);
   auto bad = placement_of(Side::left, 0.0, 0.0);
-  bad.sin_yaw = std::nan("");
+  bad.sin_yaw = bad.tan_yaw = std::nan("");
   CHECK(!locus_point(wheel, bad, 0.01, at).exists);
 }
 

@@ -75,6 +75,7 @@ TEST_CASE("minimum_distance: the Jacobian is that of differences", "[contact][ra
       placement.position_rail = Vector3<double>(0.01, 0.003, 0.43);
       placement.sin_yaw = std::sin(yaw);
       placement.cos_yaw = std::cos(yaw);
+      placement.tan_yaw = placement.sin_yaw / placement.cos_yaw;
       placement.sin_roll = std::sin(roll);
       placement.cos_roll = std::cos(roll);
       const Equations equations(wheel, rail, placement, form);
@@ -98,6 +99,47 @@ TEST_CASE("minimum_distance: the Jacobian is that of differences", "[contact][ra
     }
   }
   CHECK(compared > 550);
+}
+
+TEST_CASE("minimum_distance_residual: lengths and cosines of the pair, zero at the solution",
+          "[contact]") {
+  const Wheel wheel(Convex(s1002<double>()), 0.43);
+  const Track track(uic50<double>());
+  const Rail<RailHead<double>>& rail = track.rail(Side::left);
+  const auto parts = convex_parts(wheel.profile());
+  WheelsetPose pose{0.001, 0.43, 0.0, 0.01};
+  set_penetration(pose, wheel, track, Side::left, 1e-4);
+  const auto placement = place(track, Side::left, pose);
+  const PointPair<double> solved = minimum_distance(wheel, rail, placement, parts[1]).points;
+  for (const auto form : forms) {
+    const auto at_solution = minimum_distance_residual(wheel, rail, placement, solved, form);
+    CHECK(at_solution.lpNorm<Eigen::Infinity>() < 1e-14);
+    // Along the rail by 3 mm: the distance vector gets this component along it and no cosine
+    // changes.
+    PointPair<double> moved = solved;
+    moved.arc_length += 3e-3;
+    const auto apart = minimum_distance_residual(wheel, rail, placement, moved, form);
+    CHECK(apart(1) * apart(1) + apart(0) * apart(0) == Approx(9e-6).epsilon(1e-3));
+    CHECK(std::abs(apart(2) - at_solution(2)) < 1e-15);
+    CHECK(std::abs(apart(3) - at_solution(3)) < 1e-15);
+  }
+  const auto along_rail = minimum_distance_residual(
+      wheel, rail, placement,
+      {solved.arc_length + 3e-3, solved.rail_lateral, solved.wheel_angle, solved.wheel_lateral},
+      MinimumDistanceForm::rail_normal);
+  CHECK(along_rail(1) == Approx(-3e-3).epsilon(1e-10));
+  // A wheel that stands straight on the rail's top: the lengths are plain differences.
+  WheelPlacement<double> straight;
+  straight.position_rail = Vector3<double>(0, 0, 0.4295);
+  const auto across = minimum_distance_residual(Wheel(s1002<double>(), 0.43), rail, straight,
+                                                {-0.002, 0, 0, 0.03}, forms[0]);
+  const auto on_wheel = s1002<double>().evaluate(0.03);
+  const double length = std::hypot(1.0, on_wheel.slope);
+  const double down = 0.4295 - 0.43 - on_wheel.value;  // of the wheel's point over the rail's
+  CHECK(across(0) == Approx((0.03 - on_wheel.slope * down) / length).epsilon(1e-12));
+  CHECK(std::abs(across(1)) == Approx(0.002).epsilon(1e-12));
+  CHECK(std::abs(across(2)) == Approx(std::abs(on_wheel.slope) / length).epsilon(1e-12));
+  CHECK(across(3) == 0);
 }
 
 TEST_CASE("minimum_distance: finds what find_contact finds on the convex profile",
@@ -177,6 +219,87 @@ TEST_CASE("minimum_distance: tells the three cases of the paper's Fig. 5 apart",
                                                        : ProximityCase::touching));
     }
   }
+}
+
+TEST_CASE("minimum_distance: without a tolerance only rounding touches", "[contact]") {
+  const Wheel wheel(Convex(s1002<double>()), 0.43);
+  const Track track(uic50<double>());
+  const auto parts = convex_parts(wheel.profile());
+  WheelsetPose pose{0.001, 0.43, 0.0, 0.01};
+  set_penetration(pose, wheel, track, Side::left, 0);
+  const auto proximity_at = [&](double penetration) {
+    WheelsetPose moved = pose;
+    moved.height -= penetration;
+    return minimum_distance(wheel, track.rail(Side::left), place(track, Side::left, moved),
+                            parts[1])
+        .proximity;
+  };
+  // 64 rounding units of 0.43 m are 6.1e-15 m.
+  CHECK(proximity_at(0) == ProximityCase::touching);
+  CHECK(proximity_at(5e-14) == ProximityCase::penetrating);
+  CHECK(proximity_at(-5e-14) == ProximityCase::apart);
+}
+
+TEST_CASE("minimum_distance: evaluations are the starting strips and the Newton systems",
+          "[contact]") {
+  const Wheel wheel(Convex(s1002<double>()), 0.43);
+  const Track track(uic50<double>());
+  const auto parts = convex_parts(wheel.profile());
+  WheelsetPose pose{0.001, 0.43, 0.0, 0.01};
+  set_penetration(pose, wheel, track, Side::left, 1e-4);
+  const auto placement = place(track, Side::left, pose);
+  MinimumDistanceOptions<double> options;
+  options.starting_strips = 17;
+  int sum = 0;
+  for (const auto& part : parts) {
+    const auto found = minimum_distance(wheel, track.rail(Side::left), placement, part, options);
+    CHECK(found.iterations > 0);
+    CHECK(found.evaluations == found.iterations + 17);
+    sum += found.evaluations;
+  }
+  const auto all =
+      find_contact_by_minimum_distance(wheel, track.rail(Side::left), placement, parts, options);
+  CHECK(all.evaluations == sum);
+  const auto solved = minimum_distance(wheel, track.rail(Side::left), placement, parts[1]);
+  const auto again =
+      minimum_distance(wheel, track.rail(Side::left), placement, parts[1], solved.points, options);
+  CHECK(again.evaluations == again.iterations);
+}
+
+TEST_CASE("minimum_distance: no step is longer than maximum_step", "[contact]") {
+  const Wheel wheel(Convex(s1002<double>()), 0.43);
+  const Track track(uic50<double>());
+  const auto parts = convex_parts(wheel.profile());
+  WheelsetPose pose{0.001, 0.43, 0.0, 0.01};
+  set_penetration(pose, wheel, track, Side::left, 1e-4);
+  const auto placement = place(track, Side::left, pose);
+  const auto solve = [&](double maximum_step, int maximum_iterations) {
+    MinimumDistanceOptions<double> options;
+    options.maximum_step = maximum_step;
+    options.maximum_iterations = maximum_iterations;
+    PointPair<double> start =
+        minimum_distance(wheel, track.rail(Side::left), placement, parts[1]).points;
+    start.arc_length += 0.005;
+    return minimum_distance(wheel, track.rail(Side::left), placement, parts[1], start, options);
+  };
+  const auto solution = solve(0, 50);
+  REQUIRE(solution.proximity == ProximityCase::penetrating);
+  const double far = solution.points.arc_length + 0.005;
+  // Five steps of 1 mm, the last of them already Newton's own.
+  for (int steps = 1; steps <= 3; ++steps) {
+    const auto cut = solve(1e-3, steps);
+    CHECK(cut.proximity == ProximityCase::not_converged);
+    CHECK(far - cut.points.arc_length <= 1e-3 * steps * (1 + 1e-9));
+    CHECK(far - cut.points.arc_length > 0);
+  }
+  const auto slow = solve(1e-3, 50);
+  CHECK(slow.proximity == ProximityCase::penetrating);
+  CHECK(slow.iterations > solution.iterations);
+  CHECK(std::abs(slow.distance - solution.distance) < 1e-14);
+  // 0 is a fortieth of the radius.
+  const auto same = solve(0.43 / 40, 50);
+  CHECK(same.iterations == solution.iterations);
+  CHECK(same.distance == solution.distance);
 }
 
 TEST_CASE("minimum_distance: converges quadratically from near by", "[contact]") {

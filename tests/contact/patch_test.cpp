@@ -19,6 +19,7 @@ TEST_CASE("Patch: axes are orthonormal and the zone holds the deepest strip", "[
       placement.position_rail = Vector3<double>(0, 0.02 + 0.01 * std::sin(i), 0.4295);
       placement.sin_yaw = std::sin(yaw);
       placement.cos_yaw = std::cos(yaw);
+      placement.tan_yaw = placement.sin_yaw / placement.cos_yaw;
       placement.sin_roll = std::sin(roll);
       placement.cos_roll = std::cos(roll);
       placement.inclination = 0.05;

@@ -45,6 +45,10 @@ Table table_of(const std::string& path) {
   for (std::size_t i = 1; i < lines.size(); ++i) {
     table.rows.push_back(fields_of(lines[i]));
     REQUIRE(table.rows.back().size() == table.columns.size());
+    for (const std::string& field : table.rows.back()) {
+      REQUIRE(field != "-0");
+      REQUIRE(field != "-nan");
+    }
   }
   return table;
 }
@@ -210,12 +214,20 @@ TEST_CASE("wheelset_on_tangent_track: bad input is refused in one line and leave
       {{"--roll-inertia", "-600"}, "--roll-inertia"},
       {{"--spin-inertia", "nan"}, "--spin-inertia"},
       // A body whose moments break the triangle inequality does not exist.
-      {{"--spin-inertia", "5000"}, "5000, but must be at most the sum of the other two"},
+      {{"--spin-inertia", "5000"},
+       "--spin-inertia is 5000, but must be at most twice --roll-inertia"},
+      {{"--roll-inertia", "30"}, "at most twice --roll-inertia, which is 30"},
       {{"--nominal-radius", "-0.43"}, "--nominal-radius is -0.43"},
       {{"--gauge", "1.39"}, "gauge is 1.39"},
       {{"--lateral-shift", "nan"}, "--lateral-shift"},
-      {{"--lateral-shift", "0.5"}, "lateral shift"},
-      {{"--yaw", "2"}, "set down"},
+      {{"--lateral-shift", "0.5"}, "--lateral-shift is 0.5 m, but must leave each wheel over"},
+      // Set down on the flange tips: no start of a run.
+      {{"--lateral-shift", "0.02"}, "--lateral-shift is 0.02 m, but must keep the flanges beside"},
+      {{"--lateral-shift", "0.02"}, "the left one"},
+      {{"--lateral-shift", "-0.02"}, "the right one"},
+      {{"--lateral-shift", "0.007"}, "at most 16 mm"},
+      {{"--yaw", "2"}, "--yaw is 2, but must be between -0.1 and 0.1"},
+      {{"--yaw", "-0.11"}, "--yaw is -0.11"},
       {{"--friction", "-0.1"}, "friction"},
       {{"--restitution", "1.5"}, "restitution"},
       {{"--tolerance", "0"}, "--tolerance"},

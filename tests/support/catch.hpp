@@ -5,8 +5,12 @@
 #include <string>
 using Catch::Approx;
 namespace Catch::Matchers {
-inline auto Contains(const char* text) { return ContainsSubstring(text); }
-inline auto Contains(const std::string& text) { return ContainsSubstring(text); }
+inline auto Contains(const char* text) {
+  return ContainsSubstring(text);
+}
+inline auto Contains(const std::string& text) {
+  return ContainsSubstring(text);
+}
 }  // namespace Catch::Matchers
 #else
 #include <catch2/catch.hpp>

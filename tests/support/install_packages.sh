@@ -1,3 +1,4 @@
+# shellcheck shell=sh
 # Sourced by tests/run.sh and examples/study.sh.
 
 # Install those of the named Debian packages that are missing. Nothing is called when none is.

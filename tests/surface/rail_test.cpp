@@ -1,4 +1,5 @@
 #include <wheelrail/profile/rail_head.hpp>
+#include <wheelrail/profile/s1002.hpp>
 #include <wheelrail/surface/rail.hpp>
 
 #include "support/catch.hpp"
@@ -70,4 +71,19 @@ TEST_CASE("RailFrame: directions there and back again are the same", "[surface]"
       CHECK((frame.position_track(d) - (frame.origin_track + frame.axes_track * d)).norm() < 1e-15);
     }
   }
+}
+
+TEST_CASE("Rail: knows whether its profile is convex, and the least curvature", "[surface]") {
+  const Rail rail(rail_60e1<double>());
+  CHECK(rail.is_convex());
+  CHECK(rail.least_curvature(-0.001, 0.002) == Approx(1 / 0.3).epsilon(1e-12));
+  CHECK(rail.least_curvature(-0.02, -0.015) == Approx(1 / 0.08).epsilon(1e-12));
+  CHECK(rail.least_curvature(-0.030, 0.002) == Approx(1 / 0.3).epsilon(1e-12));
+  CHECK(rail.least_curvature(0.002, -0.030) == Approx(1 / 0.3).epsilon(1e-12));
+  CHECK(rail.least_curvature(0.030, 0.0362) == Approx(0).margin(1e-12));
+  CHECK_FALSE(Rail(s1002<double>()).is_convex());
+  using Piece = ProfilePiece<double>;
+  CHECK_FALSE(
+      Rail(PiecewiseProfile<double>({Piece::line(-1, 0, 0, 0, -0.1), Piece::line(0, 1, 0, 0, 0.1)}))
+          .is_convex());
 }

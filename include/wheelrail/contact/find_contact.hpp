@@ -1,22 +1,30 @@
 #pragma once
 /// @file
-/// The search for all patches (62): the wheel's contact locus is walked strip by strip, every local
-/// extremum of the penetration between two strips is solved for, and each run of penetrating strips
-/// is a zone whose deepest point is a patch. May include: core, numerics, profile, surface.
+/// The search for all patches (62): strips that a bound keeps from the rail are left out, the
+/// wheel's contact locus is walked over the others, every local extremum of the penetration between
+/// two strips is solved for, and each run of penetrating strips is a zone whose deepest point is a
+/// patch. May include: core, numerics, profile, surface.
+///
+/// The bound: a convex rail lies under each of its tangent planes. So a point of the wheel is no
+/// deeper than under the plane with the normal n at any point P of the rail; the strip at u, a
+/// circle of radius R(u) = R0 + F(u) about the axle's point o + u a, is no deeper than
+///   g(u) = -n.(o - P) - u n.a + R(u) sqrt(1 - (n.a)^2),
+/// whatever the yaw, and F over an interval is bounded by StripTree.
 
 #include <wheelrail/contact/patch.hpp>
 
 namespace wheelrail {
 
+/// What `find_contact` looks for.
 template <Real T>
 struct SearchOptions {
-  /// Neighbouring strips are at most this far apart [m]. Two zones are told apart, and a zone is
-  /// found however shallow, when the penetration has at most one extremum between two strips, the
-  /// joints of wheel and rail counted as strips.
-  T strip_spacing = constant<T>(0.5e-3L);
   /// A zone is where penetration > penetration_threshold [m]. A negative threshold also finds where
   /// the bodies are close without touching; the patches' penetration is then negative.
   T penetration_threshold = T(0);
+  /// A patch with penetration > maximum_penetration [m] makes the status too_deep: nearer than this
+  /// to its surface, a point inside a rail has one foot on it. Must be below the least radius of
+  /// curvature of the rail (13 mm at the corners of the standard heads).
+  T maximum_penetration = constant<T>(0.01L);
 };
 
 namespace detail {
@@ -29,27 +37,35 @@ class StripWalk {
 
   StripWalk(const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<T>& placement,
             const SearchOptions<T>& options)
-      : wheel_(wheel), rail_(rail), placement_(placement), options_(options) {}
+      : wheel_(wheel),
+        rail_(rail),
+        placement_(placement),
+        options_(options),
+        axle_lateral_(placement.cos_roll * placement.cos_yaw),
+        axle_up_(placement.sin_roll * placement.cos_yaw),
+        margin_(T(64) * epsilon<T>() * wheel.nominal_radius()) {
+    using std::sqrt;
+    const T root = sqrt(epsilon<T>());
+    step_tolerance_ = root * T(sqrt(root)) * wheel.nominal_radius();
+  }
 
   [[nodiscard]] ContactResult<T> run() {
-    const P& profile = wheel_.profile();
-    for (int piece = 0; piece < profile.piece_count(); ++piece) {
-      const T lower = profile.joint(piece);
-      const T upper = profile.joint(piece + 1);
-      const int strips = strips_in(T(upper - lower));
-      visit(strip(piece, lower));
-      for (int i = 1; i <= strips; ++i) {
-        const T u = i == strips ? upper : T(lower + (upper - lower) * T(i) / T(strips));
-        const Strip next = strip(piece, u);
-        visit_rail_joints(next);
-        visit_extremum(last_, next);
-        visit(next);
+    const auto& nodes = wheel_.strips().nodes();
+    int node = 0;
+    while (node < static_cast<int>(nodes.size())) {
+      const StripNode<T>& at = nodes[static_cast<std::size_t>(node)];
+      if (cannot_penetrate(at)) {
+        node = at.skip;
+        continue;
+      }
+      ++node;
+      if (at.skip == node) {
+        visit_interval(at.first, at.last);
+      } else if (visit_if_concave(at)) {
+        node = at.skip;
       }
     }
-    if (zone_is_open_) {
-      zone_is_cut_ = true;
-      close_zone(last_.wheel_lateral);
-    }
+    leave_zone();
     return result_;
   }
 
@@ -61,24 +77,94 @@ class StripWalk {
     T rail_lateral{};
     T penetration{};
     T slope{};
+    T slope_rate{};         // d slope / d wheel_lateral [1/m], without terms of yaw squared
     T second_derivative{};  // of the wheel's profile [1/m]
     int piece = -1;
     bool exists = false;
   };
 
-  [[nodiscard]] int strips_in(const T& length) const {
-    int strips = 1;
-    while (strips < 4096 && options_.strip_spacing * T(strips) < length) ++strips;
-    return strips;
+  // The bound of this file's head, over the strips of a node.
+  [[nodiscard]] bool cannot_penetrate(const StripNode<T>& node) {
+    using std::sqrt;
+    if (!rail_.is_convex()) return false;
+    ++result_.evaluations;
+    centre_curvature_ = T(0);
+    const LocusPoint<T> locus = locus_point(wheel_, placement_, node.centre, node.point);
+    if (!locus.exists) return false;
+    const ClosestPoint<T> foot = rail_foot(rail_.profile(), locus.lateral, locus.up);
+    centre_curvature_ = foot.curvature;
+    const T along_axle =
+        foot.normal_rail.x() * axle_lateral_ + foot.normal_rail.y() * axle_up_;  // n.a
+    const T across = sqrt(T(T(1) - along_axle * along_axle));
+    const T centre_depth = foot.penetration +
+                           foot.normal_rail.x() * (locus.lateral - placement_.position_rail.y()) +
+                           foot.normal_rail.y() * (locus.up - placement_.position_rail.z());
+    const T bound = centre_depth - node.centre * along_axle + wheel_.radius(node.point) * across +
+                    magnitude(T(node.point.slope * across - along_axle)) * node.half_width +
+                    node.rise * across;
+    return bound < options_.penetration_threshold - margin_;
+  }
+
+  // Visits a node as one interval if the penetration is concave over it, so that it has one maximum
+  // at most: where the rail is more curved than the wheel is hollow.
+  [[nodiscard]] bool visit_if_concave(const StripNode<T>& node) {
+    const auto& strips = wheel_.strips().strips();
+    const auto& first = strips[static_cast<std::size_t>(node.first)];
+    const auto& last = strips[static_cast<std::size_t>(node.last)];
+    if (!rail_.is_convex() || first.piece != last.piece) return false;
+    const T& tan_yaw = placement_.tan_yaw;
+    const T wheel_bend = node.bend + tan_yaw * tan_yaw * node.yaw_bend;
+    if (!(wheel_bend < constant<T>(0.9L) * centre_curvature_)) return false;
+    const Strip right = strip(last.piece, last.lateral, last.point);
+    const Strip left =
+        node.first == reached_ ? last_ : strip(first.piece, first.lateral, first.point);
+    if (!left.exists || !right.exists) return false;
+    const T curvature = rail_.least_curvature(left.rail_lateral, right.rail_lateral);
+    const T gap = max(T(0), T(-min(left.penetration, right.penetration)));
+    const T sliding = T(1) - constant<T>(1.2L) * max(square(left.slope), square(right.slope));
+    if (!(wheel_bend < constant<T>(0.9L) * sliding * curvature / (T(1) + curvature * gap))) {
+      return false;
+    }
+    enter(node.first, left);
+    reached_ = node.last;
+    visit_extremum(last_, right);
+    visit(right);
+    return true;
+  }
+
+  // Begins at the strip `first` of the wheel unless the walk is there already.
+  void enter(int first, const Strip& strip_there) {
+    if (first == reached_) return;
+    // What was left out in between does not penetrate; two strips at a joint are neighbours.
+    const bool neighbours =
+        reached_ >= 0 && first == reached_ + 1 && last_.wheel_lateral == strip_there.wheel_lateral;
+    if (!neighbours) leave_zone();
+    visit(strip_there);
+  }
+
+  // The interval between two neighbouring strips of the wheel.
+  void visit_interval(int first, int last) {
+    const auto& strips = wheel_.strips().strips();
+    const auto& left = strips[static_cast<std::size_t>(first)];
+    const auto& right = strips[static_cast<std::size_t>(last)];
+    if (first != reached_) enter(first, strip(left.piece, left.lateral, left.point));
+    reached_ = last;
+    const Strip next = strip(right.piece, right.lateral, right.point);
+    visit_rail_joints(next);
+    visit_extremum(last_, next);
+    visit(next);
   }
 
   [[nodiscard]] Strip strip(int piece, const T& u) {
+    return strip(piece, u, wheel_.profile().evaluate(piece, u));
+  }
+
+  [[nodiscard]] Strip strip(int piece, const T& u, const ProfilePoint<T>& point) {
     ++result_.evaluations;
     Strip at;
     at.wheel_lateral = u;
     at.piece = piece;
-    const LocusPoint<T> locus =
-        locus_point(wheel_, placement_, u, wheel_.profile().evaluate(piece, u));
+    const LocusPoint<T> locus = locus_point(wheel_, placement_, u, point);
     if (!locus.exists) return at;
     const ClosestPoint<T> foot = rail_foot(rail_.profile(), locus.lateral, locus.up);
     at.rail_lateral = foot.lateral;
@@ -86,6 +172,11 @@ class StripWalk {
     at.penetration = foot.penetration;
     // The foot moves along the surface, so only the locus' own motion across it counts.
     at.slope = -(foot.normal_rail.x() * locus.lateral_rate + foot.normal_rail.y() * locus.up_rate);
+    const T along =
+        foot.normal_rail.y() * locus.lateral_rate - foot.normal_rail.x() * locus.up_rate;
+    at.slope_rate = point.second_derivative * (foot.normal_rail.y() * placement_.cos_roll -
+                                               foot.normal_rail.x() * placement_.sin_roll) -
+                    foot.curvature / (T(1) - foot.curvature * foot.penetration) * along * along;
     at.exists = is_finite(at.penetration) && is_finite(at.slope) &&
                 !(foot.lateral < rail_.profile().lower()) &&
                 !(rail_.profile().upper() < foot.lateral);
@@ -121,10 +212,14 @@ class StripWalk {
       const auto root = bracketed_root<T>(
           [&](const T& u) { return T(strip(next.piece, u).rail_lateral - joint); },
           last_.wheel_lateral, next.wheel_lateral, T(last_.rail_lateral - joint),
-          T(next.rail_lateral - joint), {.step_tolerance = options_.strip_spacing / T(1000)});
+          T(next.rail_lateral - joint),
+          {.step_tolerance = (next.wheel_lateral - last_.wheel_lateral) / T(1000)});
       piece += piece < end ? 1 : -1;
-      if (root.status != SolveStatus::converged) continue;
       const Strip at = strip(next.piece, root.position);
+      if (root.status != SolveStatus::converged || !at.exists) {
+        result_.status = SearchStatus::not_converged;
+        continue;
+      }
       visit_extremum(last_, at);
       visit(at);
     }
@@ -139,15 +234,17 @@ class StripWalk {
     if (!is_maximum && !is_minimum) return;
     if (is_maximum && !may_penetrate(left, right)) return;
     if (is_minimum && !(penetrates(left) && penetrates(right))) return;
+    const T width = right.wheel_lateral - left.wheel_lateral;
     bool lost = false;
-    const auto root = bracketed_root<T>(
+    const auto root = bracketed_newton<T>(
         [&](const T& u) {
           const Strip at = strip(left.piece, u);
           lost = lost || !at.exists;
-          return at.slope;
+          return ValueAndSlope<T>{at.slope, at.slope_rate};
         },
         left.wheel_lateral, right.wheel_lateral, left.slope, right.slope,
-        {.step_tolerance = step_tolerance()});
+        T(left.wheel_lateral + width * left.slope / (left.slope - right.slope)),
+        {.step_tolerance = T(2) * epsilon<T>() * wheel_.nominal_radius()});
     if (root.status != SolveStatus::converged || lost) {
       result_.status = SearchStatus::not_converged;
       return;
@@ -172,22 +269,47 @@ class StripWalk {
     last_ = next;
   }
 
+  // Ends the walk over neighbouring strips; a zone that is open there ends with the profile.
+  void leave_zone() {
+    if (zone_is_open_) {
+      zone_is_cut_ = true;
+      close_zone(last_.wheel_lateral);
+    }
+    last_ = Strip();
+  }
+
+  // A parabola with its top at the strip inside, where that is the zone's deepest; otherwise a chord.
+  [[nodiscard]] T boundary_start(const Strip& left, const Strip& right) const {
+    using std::sqrt;
+    const bool left_is_inside = penetrates(left);
+    const Strip& inside = left_is_inside ? left : right;
+    const Strip& outside = left_is_inside ? right : left;
+    const T depth = inside.penetration - options_.penetration_threshold;
+    const T chord = depth / (inside.penetration - outside.penetration);
+    const bool at_top =
+        magnitude(inside.slope) * magnitude(T(right.wheel_lateral - left.wheel_lateral)) <
+        depth / T(4);
+    const T share = at_top ? T(sqrt(chord)) : chord;
+    return inside.wheel_lateral + share * (outside.wheel_lateral - inside.wheel_lateral);
+  }
+
   // Where the penetration passes the threshold between two neighbouring strips.
   [[nodiscard]] T boundary(const Strip& left, const Strip& right) {
     if (left.piece != right.piece) return right.wheel_lateral;
     const T& threshold = options_.penetration_threshold;
+    bool lost = false;
     const auto root = bracketed_newton<T>(
         [&](const T& u) {
           const Strip at = strip(left.piece, u);
+          lost = lost || !at.exists;
           return ValueAndSlope<T>{T(at.penetration - threshold), at.slope};
         },
         left.wheel_lateral, right.wheel_lateral, T(left.penetration - threshold),
-        T(right.penetration - threshold),
-        T(left.wheel_lateral + (right.wheel_lateral - left.wheel_lateral) *
-                                   (left.penetration - threshold) /
-                                   (left.penetration - right.penetration)),
+        T(right.penetration - threshold), boundary_start(left, right),
         {.step_tolerance = step_tolerance()});
-    if (root.status != SolveStatus::converged) result_.status = SearchStatus::not_converged;
+    if (root.status != SolveStatus::converged || lost) {
+      result_.status = SearchStatus::not_converged;
+    }
     return root.position;
   }
 
@@ -202,17 +324,24 @@ class StripWalk {
     patch.zone_lower = zone_lower_;
     patch.zone_upper = zone_upper;
     patch.zone_is_cut = zone_is_cut_;
+    if (options_.maximum_penetration < patch.penetration) result_.status = SearchStatus::too_deep;
     if (!result_.patches.push_back(patch)) result_.status = SearchStatus::too_many_patches;
   }
 
-  // Lateral positions are solved for to rounding of the wheel's size.
-  [[nodiscard]] T step_tolerance() const { return T(2) * epsilon<T>() * wheel_.nominal_radius(); }
+  // With exact slopes, a last Newton step this long leaves an error of rounding.
+  [[nodiscard]] T step_tolerance() const { return step_tolerance_; }
 
   const Wheel<P>& wheel_;
   const Rail<R>& rail_;
   const WheelPlacement<T>& placement_;
   const SearchOptions<T>& options_;
+  T axle_lateral_;  // of the axle's direction, rail frame
+  T axle_up_;
+  T centre_curvature_{};  // of the rail under the centre of the last node [1/m]
+  T margin_;              // rounding of the bound and of the penetration [m]
+  T step_tolerance_{};    // [m]
   ContactResult<T> result_;
+  int reached_ = -1;  // the last strip of the wheel that was visited
   Strip last_;
   Strip deepest_;
   T zone_lower_{};
@@ -223,13 +352,11 @@ class StripWalk {
 }  // namespace detail
 
 /// All patches between @p wheel and @p rail at @p placement.
-/// @return one patch for each zone of the wheel profile whose locus lies under the rail's surface,
-/// in
+/// @return one patch for each zone of the wheel profile whose locus lies under the rail's surface, in
 ///   the order of wheel_lateral; wheel_lateral, penetration and the zone's ends are solved for to
 ///   rounding (an end that zone_is_cut tells of: to a strip). Strips whose foot lies beyond the
 ///   rail profile's ends do not count as penetrating. Where a zone holds several local maxima the
 ///   deepest is its patch.
-/// @pre options.strip_spacing > 0
 /// @note Does not allocate. Equations (57), (59), (61), (62) of the paper.
 template <Profile P, Profile R>
 [[nodiscard]] ContactResult<typename P::Scalar> find_contact(

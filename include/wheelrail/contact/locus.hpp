@@ -2,8 +2,8 @@
 /// @file
 /// The contact locus: for each strip of the wheel, the one point whose normal lies in the rail's
 /// cross-section plane (52). Its wheel angle is closed form, s_w = arcsin(tan(yaw) F'(u)) (57);
-/// seen along the rail the locus is the wheel's outline. May include: core, numerics, profile,
-/// surface.
+/// seen along the rail the locus is the wheel's outline.
+/// May include: core, numerics, profile, surface.
 ///
 /// A point where wheel and rail touch with a common normal lies on the locus, so that the greatest
 /// penetration along it is the greatest over the whole surface. In between, its penetration is that
@@ -26,8 +26,8 @@ struct LocusPoint {
   bool exists = false;  ///< false where |tan(yaw) F'| >= 1: no normal of the strip is in the plane
 };
 
-/// The locus point of the strip of @p wheel whose profile point is @p point, at @p wheel_lateral
-/// [m].
+/// The locus point of one strip of @p wheel.
+/// @param wheel_lateral where the strip is [m]. @param point of the wheel's profile there.
 /// @note One square root; no trigonometry, no allocation.
 template <Profile P>
 [[nodiscard]] LocusPoint<typename P::Scalar> locus_point(
@@ -37,7 +37,7 @@ template <Profile P>
   using T = typename P::Scalar;
   LocusPoint<T> locus;
   locus.profile = point;
-  const T tan_yaw = placement.sin_yaw / placement.cos_yaw;
+  const T& tan_yaw = placement.tan_yaw;
   const T radius = wheel.radius(point);
   const T sine = tan_yaw * point.slope;
   const T cosine_squared = T(1) - sine * sine;

@@ -21,6 +21,8 @@ enum class ProximityCase {
   not_converged      ///< iteration cap, singular Jacobian or no descent
 };
 
+/// The form of the equations and when Newton's method stops, in m; 0 stands for a length that
+/// follows from the wheel.
 template <Real T>
 struct MinimumDistanceOptions {
   MinimumDistanceForm form = MinimumDistanceForm::wheel_normal;
@@ -28,10 +30,17 @@ struct MinimumDistanceOptions {
   /// wheel's radius); 0 means epsilon^(2/3) of the nominal radius, after which the quadratically
   /// convergent iterate is exact to rounding.
   T step_tolerance = T(0);
-  /// |n_r.d| <= touching_tolerance is case (b) of Fig. 5 [m].
+  /// A longer Newton step is cut to this length [m] (angles: times the wheel's radius); 0 means
+  /// nominal radius / 40, 11 mm for a wheel of 0.43 m. A CHOICE: a safeguard for starts from afar,
+  /// since a linearisation says nothing beyond a rail's corner radius (13 mm). From the nearest
+  /// strip no result on the convex S1002 depends on it (tried from 3 mm to 1 m).
+  T maximum_step = T(0);
+  /// |n_r.d| <= touching_tolerance is case (b) of Fig. 5 [m]; 0 means 64 rounding units of the
+  /// nominal radius, as far as rounding lets the sign of n_r.d be told.
   T touching_tolerance = T(0);
-  int maximum_iterations = 50;
-  /// Strips per part from whose nearest one the iteration starts.
+  int maximum_iterations = 50;  ///< iterations <= maximum_iterations on each part
+  /// Strips per part from whose nearest one the iteration starts; one that is not near by can lead
+  /// to another pair of points with common normals.
   int starting_strips = 24;
 };
 
@@ -74,9 +83,10 @@ template <Real T>
 struct PartDistance {
   PointPair<T> points;
   ProximityCase proximity = ProximityCase::not_converged;
-  T distance{};  ///< n_r.d [m]: negative in penetration
-  T residual{};  ///< the larger of |d.t| / nominal radius and |n.t| [-]
-  int iterations = 0;
+  T distance{};         ///< n_r.d [m]: negative in penetration
+  T residual{};         ///< the larger of |d.t| / nominal radius and |n.t| [-]
+  int iterations = 0;   ///< Newton systems solved
+  int evaluations = 0;  ///< iterations, and the strips among which the start was looked for
 };
 
 namespace detail {
@@ -94,6 +104,9 @@ template <Profile P, Profile R>
   const T step_tolerance = T(0) < options.step_tolerance
                                ? options.step_tolerance
                                : T(pow(epsilon<T>(), T(T(2) / T(3))) * wheel_radius);
+  const T longest = T(0) < options.maximum_step ? options.maximum_step : T(wheel_radius / T(40));
+  const T touching = T(0) < options.touching_tolerance ? options.touching_tolerance
+                                                       : T(T(64) * epsilon<T>() * wheel_radius);
   const Vector scale(T(1), T(1), wheel_radius, T(1));
   Vector x(start.arc_length, start.rail_lateral, start.wheel_angle, start.wheel_lateral);
   auto at = equations(x);
@@ -103,9 +116,7 @@ template <Profile P, Profile R>
     ++result.iterations;
     const Vector step = -at.jacobian.partialPivLu().solve(at.residual);
     if (!is_finite(T(step.sum()))) break;
-    // Steps longer than the corner radius of a rail leave the model's neighbourhood.
     const T length = step.cwiseProduct(scale).template lpNorm<Eigen::Infinity>();
-    const T longest = wheel_radius / T(40);
     T fraction = length <= longest ? T(1) : T(longest / length);
     const bool full_step = length <= longest;
     Vector next;
@@ -125,9 +136,9 @@ template <Profile P, Profile R>
     x = next;
     at = at_next;
     if (full_step && length <= step_tolerance && !at_an_end) {
-      const T distance = at.normal_rail.dot(at.distance_rail);
+      const T distance = at.rail_normal_rail.dot(at.distance_rail);
       result.proximity =
-          magnitude(distance) <= options.touching_tolerance
+          magnitude(distance) <= touching
               ? ProximityCase::touching
               : (T(0) < distance ? ProximityCase::apart : ProximityCase::penetrating);
       break;
@@ -138,8 +149,9 @@ template <Profile P, Profile R>
     }
   }
   result.points = {x(0), x(1), x(2), x(3)};
-  result.distance = at.normal_rail.dot(at.distance_rail);
+  result.distance = at.rail_normal_rail.dot(at.distance_rail);
   result.residual = equations.norm(at.residual);
+  result.evaluations = result.iterations;
   return result;
 }
 
@@ -169,6 +181,24 @@ template <Profile P, Profile R>
 
 }  // namespace detail
 
+/// The residuals of the method at a pair of points that need not solve it: (30) or (31).
+/// @param points parameters of the two points; a lateral one beyond a profile's end counts as that
+///   end.
+/// @return wheel_normal: d.t_w,u and d.t_w,s [m], then n_r.t_w,u and n_r.t_w,s [-]; rail_normal:
+///   d.t_r,u and d.t_r,s [m], then n_w.t_r,u and n_w.t_r,s [-]. d runs from the rail's point to the
+///   wheel's (29), t and n are unit vectors; the residuals do not depend on the frame.
+/// @note Does not allocate.
+template <Profile P, Profile R>
+[[nodiscard]] Vector4<typename P::Scalar> minimum_distance_residual(
+    const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
+    const PointPair<typename P::Scalar>& points,
+    MinimumDistanceForm form = MinimumDistanceForm::wheel_normal) {
+  const detail::MinimumDistanceEquations<P, R> equations(wheel, rail, placement, form);
+  return equations(Vector4<typename P::Scalar>(points.arc_length, points.rail_lateral,
+                                               points.wheel_angle, points.wheel_lateral))
+      .residual;
+}
+
 /// The pair of points with common normals on one convex part of the wheel.
 /// @param start where Newton's method starts.
 /// @note Does not allocate.
@@ -187,17 +217,18 @@ template <Profile P, Profile R>
     const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
     const LateralInterval<typename P::Scalar>& part,
     const MinimumDistanceOptions<typename P::Scalar>& options = {}) {
-  return minimum_distance(
+  PartDistance<typename P::Scalar> found = minimum_distance(
       wheel, rail, placement, part,
       detail::nearest_strip(wheel, rail, placement, part, options.starting_strips), options);
+  found.evaluations += options.starting_strips;
+  return found;
 }
 
 /// The patches by the minimum distance method: at most one on each of @p parts.
 /// @return patches of the parts that penetrate, with zone_lower and zone_upper NaN; status
-///   not_converged when a part's iteration failed; evaluations: Newton systems solved.
+///   not_converged when a part's iteration failed; evaluations: starting strips and Newton systems.
 /// @pre @p parts as `convex_parts` gives them for a convex or convexly modified profile. On a
-/// concave
-///   one the method may find a point that is not the deepest, or none.
+///   concave one the method may find a point that is not the deepest, or none.
 /// @note Does not allocate.
 template <Profile P, Profile R>
 [[nodiscard]] ContactResult<typename P::Scalar> find_contact_by_minimum_distance(
@@ -212,7 +243,7 @@ template <Profile P, Profile R>
   }
   for (const LateralInterval<T>& part : parts) {
     const PartDistance<T> found = minimum_distance(wheel, rail, placement, part, options);
-    result.evaluations += found.iterations;
+    result.evaluations += found.evaluations;
     if (found.proximity == ProximityCase::not_converged) {
       result.status = SearchStatus::not_converged;
     }

@@ -41,6 +41,7 @@ struct Patch {
 enum class SearchStatus {
   complete,          ///< every strip, or every part of the profile, was dealt with
   not_converged,     ///< an iteration failed: a patch may be missing
+  too_deep,          ///< a patch is deeper than the search is meant for: it means little
   too_many_patches,  ///< more zones than a ContactResult holds: the first ones are returned
   not_finite         ///< the placement holds a NaN or an infinity: nothing was searched
 };
@@ -52,6 +53,8 @@ enum class SearchStatus {
       return "complete";
     case SearchStatus::not_converged:
       return "not_converged";
+    case SearchStatus::too_deep:
+      return "too_deep";
     case SearchStatus::too_many_patches:
       return "too_many_patches";
     case SearchStatus::not_finite:
@@ -67,7 +70,7 @@ struct ContactResult {
   static constexpr std::size_t maximum_patches = 8;
   FixedList<Patch<T>, maximum_patches> patches;
   SearchStatus status = SearchStatus::complete;
-  int evaluations = 0;  ///< strips whose penetration was computed, or Newton systems solved
+  int evaluations = 0;  ///< strips whose penetration was computed, and Newton systems solved
 };
 
 namespace detail {

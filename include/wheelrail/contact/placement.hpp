@@ -17,11 +17,12 @@ template <Real T>
 struct WheelPlacement {
   Side side = Side::left;
   Vector3<T> position_rail = Vector3<T>::Zero();  ///< of the wheel profile's origin [m]
-  T sin_yaw = T(0);
-  T cos_yaw = T(1);
-  T sin_roll = T(0);
-  T cos_roll = T(1);
-  T inclination = T(0);  ///< of the rail, as in RailFrame [rad]
+  T sin_yaw = T(0);                               ///< of yaw() [-]
+  T cos_yaw = T(1);                               ///< of yaw() [-]
+  T tan_yaw = T(0);                               ///< sin_yaw / cos_yaw [-]
+  T sin_roll = T(0);                              ///< of roll() [-]
+  T cos_roll = T(1);                              ///< of roll() [-]
+  T inclination = T(0);                           ///< of the rail, as in RailFrame [rad]
 
   /// A direction in the wheel frame, in the rail frame.
   [[nodiscard]] Vector3<T> direction_rail(const Vector3<T>& direction_wheel) const {
@@ -45,9 +46,8 @@ struct WheelPlacement {
 };
 
 /// The placement of a wheel over a rail.
-/// @param frame the rail frame at the wheel: (36) asks that the wheel's centre lie in its plane x =
-/// 0;
-///   on a straight rail any frame will do.
+/// @param frame the rail frame at the wheel: (36) asks that the wheel's centre lie in its plane
+///   x = 0; on a straight rail any frame will do.
 /// @param wheel_track the wheel profile's origin [m], track frame (35).
 /// @param axle_track unit vector along the axle to the field side of this wheel, track frame.
 /// @note Does not allocate. An axle along the rail gives NaN, which a search reports.
@@ -63,6 +63,7 @@ template <Real T>
   placement.position_rail = frame.direction_rail(wheel_track - frame.origin_track);
   placement.sin_yaw = -axle_rail.x();
   placement.cos_yaw = in_section;
+  placement.tan_yaw = placement.sin_yaw / in_section;
   placement.sin_roll = axle_rail.z() / in_section;
   placement.cos_roll = axle_rail.y() / in_section;
   placement.inclination = frame.inclination;

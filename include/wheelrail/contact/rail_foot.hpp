@@ -21,7 +21,7 @@ template <Real T>
   const T dy = lateral - end;
   const T dz = up - point.value;
   return {end + (dy * cosine + dz * sine) * cosine, dy * sine - dz * cosine,
-          Vector2<T>(-sine, cosine)};
+          Vector2<T>(-sine, cosine), T(0)};
 }
 
 }  // namespace detail
@@ -62,13 +62,12 @@ template <Profile P>
   ClosestPoint<T> foot{
       root.position,
       (root.position - lateral) * normal_rail.x() + (point.value - up) * normal_rail.y(),
-      normal_rail};
+      normal_rail, curvature(point)};
   if (root.status != SolveStatus::converged) foot.penetration = T(0) / T(0);
   return foot;
 }
 
-/// The foot of (@p lateral, @p up) [m], rail frame, on @p profile: in closed form where there is
-/// one.
+/// The foot of (@p lateral, @p up) [m], rail frame, on @p profile: closed form where there is one.
 template <Profile P>
 [[nodiscard]] ClosestPoint<typename P::Scalar> rail_foot(const P& profile,
                                                          const typename P::Scalar& lateral,

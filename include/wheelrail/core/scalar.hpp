@@ -14,17 +14,17 @@ namespace wheelrail {
 
 /// A real scalar: a field with an order, constructible from double, known to Eigen's NumTraits.
 template <class T>
-concept Real = !std::is_integral_v<T> && std::constructible_from<T, double> &&
-               requires(const T a, const T b) {
-                 T(a + b);
-                 T(a - b);
-                 T(a * b);
-                 T(a / b);
-                 T(-a);
-                 { a < b } -> std::convertible_to<bool>;
-                 { a == b } -> std::convertible_to<bool>;
-                 T(Eigen::NumTraits<T>::epsilon());
-               };
+concept Real =
+    !std::is_integral_v<T> && std::constructible_from<T, double> && requires(const T a, const T b) {
+  T(a + b);
+  T(a - b);
+  T(a * b);
+  T(a / b);
+  T(-a);
+  { a < b } -> std::convertible_to<bool>;
+  { a == b } -> std::convertible_to<bool>;
+  T(Eigen::NumTraits<T>::epsilon());
+};
 
 /// The relative rounding unit of @p T, the scale of every tolerance in the library.
 template <Real T>

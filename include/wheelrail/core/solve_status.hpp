@@ -4,6 +4,7 @@
 
 namespace wheelrail {
 
+/// How an iteration for one or more unknowns ended.
 enum class SolveStatus {
   converged,        ///< the tolerance was met
   iteration_limit,  ///< the cap on iterations was reached first
@@ -14,10 +15,14 @@ enum class SolveStatus {
 /// The status in words, for messages and tables.
 [[nodiscard]] constexpr const char* name_of(SolveStatus status) {
   switch (status) {
-    case SolveStatus::converged: return "converged";
-    case SolveStatus::iteration_limit: return "iteration_limit";
-    case SolveStatus::no_bracket: return "no_bracket";
-    case SolveStatus::not_finite: return "not_finite";
+    case SolveStatus::converged:
+      return "converged";
+    case SolveStatus::iteration_limit:
+      return "iteration_limit";
+    case SolveStatus::no_bracket:
+      return "no_bracket";
+    case SolveStatus::not_finite:
+      return "not_finite";
   }
   return "unknown";
 }

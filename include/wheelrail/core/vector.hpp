@@ -9,7 +9,7 @@
 
 namespace wheelrail {
 
-/// A column of two, in a rail's cross-section plane: (lateral towards the field side, up).
+/// A column of two.
 template <Real T>
 using Vector2 = Eigen::Matrix<T, 2, 1, Eigen::DontAlign>;
 

@@ -103,8 +103,7 @@ template <Real T>
 /// @param body_to_world a proper rotation [-]; off by d, it moves the result by the order of d. A
 ///   reflection is none and gives the parameters of no particular turn.
 /// @return of unit length, with e0 >= 0; half a turn, where p and -p both have e0 = 0, gives the
-/// one
-///   whose largest component is positive [-]. NaN gives NaN.
+///   one whose largest component is positive [-]. NaN gives NaN.
 template <Real T>
 [[nodiscard]] Vector4<T> euler_parameters_from_rotation_matrix(const Matrix3<T>& body_to_world) {
   const Matrix3<T>& a = body_to_world;

@@ -2,8 +2,8 @@
 /// @file
 /// One rigid body in space: its inertia, its state, the wrench on it, and the equations of Newton
 /// and Euler (the body's share of M and g in (91)-(94)). World is the inertial frame; the body
-/// frame has its origin at the centre of mass and its axes along the principal axes of inertia. May
-/// include: core, dynamics, Eigen, std.
+/// frame has its origin at the centre of mass and its axes along the principal axes of inertia.
+/// May include: core, dynamics, Eigen, std.
 ///
 /// Kinetics is kept apart from kinematics, so that a system of bodies can put constraints between:
 /// M (`mass_diagonal`) and g (`generalized_force`) in the accelerations (dv/dt in the world,
@@ -54,6 +54,7 @@ class RigidBody {
   Vector3<T> moments_body_;
 };
 
+/// Where a body is and how it moves: SI units, world or body axes as the names say.
 template <Real T>
 struct RigidBodyState {
   Vector3<T> position_world = Vector3<T>::Zero();  ///< of the centre of mass [m]
@@ -124,14 +125,16 @@ template <Real T>
 template <Real T>
 [[nodiscard]] Vector6<T> generalized_force(const RigidBody<T>& body, const RigidBodyState<T>& state,
                                            const Wrench<T>& wrench) {
-  const Vector3<T>& i = body.moments_body();
-  const Vector3<T>& w = state.angular_velocity_body;
+  const Vector3<T>& inertia_body = body.moments_body();
+  const Vector3<T>& spin_body = state.angular_velocity_body;
   const Vector3<T> moment_body =
       rotation_matrix(state.orientation).transpose() * wrench.moment_world;
+  const Vector3<T> gyroscopic_body(
+      (inertia_body.y() - inertia_body.z()) * (spin_body.y() * spin_body.z()),
+      (inertia_body.z() - inertia_body.x()) * (spin_body.z() * spin_body.x()),
+      (inertia_body.x() - inertia_body.y()) * (spin_body.x() * spin_body.y()));
   Vector6<T> force;
-  force << wrench.force_world, moment_body.x() + (i.y() - i.z()) * (w.y() * w.z()),
-      moment_body.y() + (i.z() - i.x()) * (w.z() * w.x()),
-      moment_body.z() + (i.x() - i.y()) * (w.x() * w.y());
+  force << wrench.force_world, moment_body + gyroscopic_body;
   return force;
 }
 
@@ -156,9 +159,9 @@ template <Real T>
 /// Of the translation and of the rotation together [J].
 template <Real T>
 [[nodiscard]] T kinetic_energy(const RigidBody<T>& body, const RigidBodyState<T>& state) {
-  const Vector3<T>& w = state.angular_velocity_body;
+  const Vector3<T>& spin_body = state.angular_velocity_body;
   return (body.mass() * state.velocity_world.squaredNorm() +
-          w.dot(body.moments_body().cwiseProduct(w))) /
+          spin_body.dot(body.moments_body().cwiseProduct(spin_body))) /
          T(2);
 }
 

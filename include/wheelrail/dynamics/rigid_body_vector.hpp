@@ -1,8 +1,8 @@
 #pragma once
 /// @file
 /// Rigid bodies in one column of numbers, for integrators (numerics/dormand_prince.hpp): body i of
-/// a system holds the thirteen numbers from 13 i on, in the order of RigidBodyState's fields. May
-/// include: core, dynamics, Eigen, std.
+/// a system holds the thirteen numbers from 13 i on, in the order of RigidBodyState's fields.
+/// May include: core, dynamics, Eigen, std.
 
 #include <wheelrail/core/assert.hpp>
 #include <wheelrail/dynamics/rigid_body.hpp>

@@ -30,19 +30,19 @@ struct ContactKinematics {
 /// The forces of one contact, on the wheel, in the contact frame.
 template <Real T>
 struct ContactForce {
-  T normal{};             ///< f_n [N], >= 0, along z
-  CreepForce<T> creep{};  ///< [N], along x and y
-  Creepage<T> creepage{};
-  HertzEllipse<T> ellipse{};
-  T stiffness{};  ///< K of (67) [N/m^1.5]
-  HertzStatus hertz_status = HertzStatus::regular;
+  T normal{};                                       ///< f_n [N], >= 0, along z
+  CreepForce<T> creep{};                            ///< [N], along x and y
+  Creepage<T> creepage{};                           ///< of the wheel against the rail
+  HertzEllipse<T> ellipse{};                        ///< [m]
+  T stiffness{};                                    ///< K of (67) [N/m^1.5]
+  HertzStatus hertz_status = HertzStatus::regular;  ///< how the ellipse came about
 };
 
-/// Defaults: Table 1 of the paper.
+/// Materials, friction and the options of each part of the force law; Table 1 of the paper.
 template <Real T>
 struct ContactForceOptions {
-  Material<T> wheel = steel<T>();
-  Material<T> rail = steel<T>();
+  Material<T> wheel = steel<T>();               ///< of the wheel
+  Material<T> rail = steel<T>();                ///< of the rail
   T friction_coefficient = constant<T>(0.25L);  ///< mu [-], >= 0
   NormalForceOptions<T> normal{};
   HertzOptions<T> hertz{};

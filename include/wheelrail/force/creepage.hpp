@@ -17,6 +17,7 @@ struct Creepage {
   T spin{};          ///< phi [1/m]
 };
 
+/// How creepages stay finite at rest.
 template <Real T>
 struct CreepageOptions {
   /// Velocities are divided by sqrt(speed^2 + this^2) [m/s], > 0, so that standing still is no

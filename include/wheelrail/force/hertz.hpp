@@ -26,6 +26,7 @@ template <Real T>
   return {(wheel_longitudinal + rail_longitudinal) / T(2), (wheel_lateral + rail_lateral) / T(2)};
 }
 
+/// Where Hertz's theory is held off its singularity.
 template <Real T>
 struct HertzOptions {
   /// B is taken as max(B, this) [1/m], > 0. A CHOICE of this library: where fillet and gauge corner
@@ -70,13 +71,13 @@ enum class HertzStatus {
 /// minor_coefficient == axis_ratio * major_coefficient; rolling_is_major == (A <= bounded B).
 template <Real T>
 struct HertzShape {
-  T axis_ratio{};             ///< minor over major axis g [-]
-  T major_coefficient{};      ///< m of (75) [-]
-  T minor_coefficient{};      ///< n of (76) [-]
-  T stiffness_coefficient{};  ///< C of (67) [-], 1/pi for a circle
-  T curvature_sum{};          ///< A + B, B bounded [1/m]
-  bool rolling_is_major = true;
-  int iterations = 0;
+  T axis_ratio{};                ///< minor over major axis g [-]
+  T major_coefficient{};         ///< m of (75) [-]
+  T minor_coefficient{};         ///< n of (76) [-]
+  T stiffness_coefficient{};     ///< C of (67) [-], 1/pi for a circle
+  T curvature_sum{};             ///< A + B, B bounded [1/m]
+  bool rolling_is_major = true;  ///< the ellipse's major axis lies along the rolling
+  int iterations = 0;            ///< Newton steps
   HertzStatus status = HertzStatus::not_finite;
 };
 

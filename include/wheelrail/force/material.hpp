@@ -36,8 +36,7 @@ class MaterialPair {
   MaterialPair() : MaterialPair(steel<T>(), steel<T>()) {}
 
   /// @throws std::invalid_argument unless both moduli are finite and > 0 and both Poisson ratios
-  /// lie
-  ///   in [0, 0.5).
+  ///   lie in [0, 0.5).
   MaterialPair(const Material<T>& wheel, const Material<T>& rail) {
     validate("wheel material", wheel);
     validate("rail material", rail);

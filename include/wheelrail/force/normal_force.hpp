@@ -8,7 +8,7 @@
 
 namespace wheelrail {
 
-/// The damping of (63); defaults as in Table 1 of the paper.
+/// The damping of (63): a ratio of forces [-] and a velocity [m/s], as in Table 1 of the paper.
 template <Real T>
 struct NormalForceOptions {
   /// c_e [-], in [0, 1]: the force of a contact that opens faster than velocity_tolerance over that

@@ -18,6 +18,7 @@ struct ValueAndSlope {
   T slope{};
 };
 
+/// When an iteration for a root x of f stops: converged as soon as one of the tolerances is met.
 template <Real T>
 struct RootOptions {
   /// Stop when the bracket or the last step is at most this wide [unit of x]; 0 means two rounding
@@ -35,7 +36,7 @@ template <Real T>
 struct RootResult {
   T position{};
   T residual{};
-  int iterations = 0;
+  int iterations = 0;  ///< evaluations of f, those at the bracket's ends not counted
   SolveStatus status = SolveStatus::not_finite;
 };
 

@@ -22,8 +22,7 @@ namespace wheelrail {
 /// The integrator, one accepted step at a time, forward in time.
 /// Invariant: `interpolate` covers [previous_time(), time()], whatever the last status was.
 /// @note No allocation for states of fixed size. Neither the signs of the components nor their
-/// order
-///   change a step: mirrored problems give mirrored results, bit for bit.
+///   order change a step: mirrored problems give mirrored results, bit for bit.
 template <StateVector State>
 class DormandPrince {
  public:

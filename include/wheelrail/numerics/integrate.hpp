@@ -10,6 +10,7 @@
 
 namespace wheelrail {
 
+/// How an integration ended.
 enum class IntegrationStatus {
   finished,             ///< the end was reached and reported
   stopped_by_observer,  ///< the observer returned false

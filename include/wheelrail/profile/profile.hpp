@@ -39,6 +39,7 @@ struct ClosestPoint {
   T lateral{};      ///< of the profile's point [m]
   T penetration{};  ///< depth of the given point under the surface [m], negative above it
   Vector2<T> normal_rail{T(0), T(1)};  ///< outward unit normal there: (lateral, up)
+  T curvature{};                       ///< of the profile there [1/m], positive where convex
 };
 
 /// A profile that knows its nearest point in closed form. Where the foot of the perpendicular would

@@ -66,7 +66,7 @@ class RailHead {
       const T along = end.cosine * (x - end.lateral) - end.sine * (up - end.up);
       const T outside = end.sine * (x - end.lateral) + end.cosine * (up - end.up);
       return {sign * (end.lateral + along * end.cosine), -outside,
-              Vector2<T>(sign * end.sine, end.cosine)};
+              Vector2<T>(sign * end.sine, end.cosine), T(0)};
     }
     const Circle& circle = circles_[arc];
     const T dx = x - circle.lateral;
@@ -74,7 +74,7 @@ class RailHead {
     const T distance = sqrt(T(dx * dx + dz * dz));
     const T inverse = T(1) / distance;
     return {sign * (circle.lateral + circle.radius * dx * inverse), circle.radius - distance,
-            Vector2<T>(sign * dx * inverse, dz * inverse)};
+            Vector2<T>(sign * dx * inverse, dz * inverse), circle.curvature};
   }
 
  private:
@@ -83,7 +83,7 @@ class RailHead {
     T lateral{}, up{}, sine{}, cosine{};
   };
   struct Circle {
-    T lateral{}, up{}, radius{};
+    T lateral{}, up{}, radius{}, curvature{};
   };
   using Joints = std::array<Joint, 3>;
 
@@ -139,10 +139,11 @@ class RailHead {
   [[nodiscard]] static std::array<Circle, 3> circles_of(const RailHeadDimensions<T>& d,
                                                         const Joints& joints) {
     const auto centred = [](const Joint& joint, const T& radius) {
-      return Circle{joint.lateral - radius * joint.sine, joint.up - radius * joint.cosine, radius};
+      return Circle{joint.lateral - radius * joint.sine, joint.up - radius * joint.cosine, radius,
+                    T(1) / radius};
     };
-    return {Circle{T(0), -d.crown_radius, d.crown_radius}, centred(joints[1], d.shoulder_radius),
-            centred(joints[2], d.corner_radius)};
+    return {Circle{T(0), -d.crown_radius, d.crown_radius, T(1) / d.crown_radius},
+            centred(joints[1], d.shoulder_radius), centred(joints[2], d.corner_radius)};
   }
 
   [[nodiscard]] PiecewiseProfile<T> profile_of() const {

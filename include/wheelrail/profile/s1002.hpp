@@ -55,15 +55,15 @@ inline constexpr std::array<long double, 9> s1002_closing_cubic{
   return c;
 }
 
-// A section's piece in metres from its polynomial in mm, recentred on the middle of the section.
+// A section's piece [m] from its polynomial in mm, recentred on centre and scaled by half_width.
 template <Real T>
-[[nodiscard]] ProfilePiece<T> s1002_polynomial(long double lower, long double upper,
+[[nodiscard]] ProfilePiece<T> s1002_polynomial(const T& lower, const T& upper, long double centre,
+                                               long double half_width,
                                                const std::array<long double, 9>& centred) {
   std::array<T, 9> coefficients;
   for (std::size_t k = 0; k < 9; ++k) coefficients[k] = constant<T>(centred[k] * 1e-3L);
-  return ProfilePiece<T>::polynomial(constant<T>(lower * 1e-3L), constant<T>(upper * 1e-3L),
-                                     constant<T>((lower + upper) / 2 * 1e-3L),
-                                     constant<T>((upper - lower) / 2 * 1e-3L), coefficients);
+  return ProfilePiece<T>::polynomial(lower, upper, constant<T>(centre * 1e-3L),
+                                     constant<T>(half_width * 1e-3L), coefficients);
 }
 
 }  // namespace detail
@@ -85,7 +85,7 @@ template <Real T>
   }
   const auto m = [](long double millimetres) { return constant<T>(millimetres * mm); };
   const T gh = m(-62.764705882L), fg = m(-49.662510381L), ef = m(-39.764473993L),
-          de = m(-38.426669071L), cd = m(-35.0L), ab = m(32.15796L);
+          de = m(-38.426669071L), cd = m(-35.0L), bc = m(-26.0L), ab = m(32.15796L);
   std::vector<Piece> pieces;
   pieces.reserve(8);
   pieces.push_back(Piece::arc(m(-69.999L), gh, m(-49.5L), m(9.519259302L), m(20.5L), true));
@@ -93,8 +93,8 @@ template <Real T>
   pieces.push_back(Piece::arc(fg, ef, m(-58.558326413L), m(8.83492413L), m(20.0L), true));
   pieces.push_back(Piece::line(ef, de, T(0), m(-93.576667419L), constant<T>(-2.747477419L)));
   pieces.push_back(Piece::arc(de, cd, m(-26.210665L), m(16.446L), m(13.0L), false));
-  pieces.push_back(detail::s1002_polynomial<T>(-35.0L, -26.0L, c));
-  pieces.push_back(detail::s1002_polynomial<T>(-26.0L, 32.15796L, section_b));
+  pieces.push_back(detail::s1002_polynomial<T>(cd, bc, -30.5L, 4.5L, c));
+  pieces.push_back(detail::s1002_polynomial<T>(bc, ab, 3.07898L, 29.07898L, section_b));
   pieces.push_back(Piece::line(ab, m(60.0L), T(0), m(1.36432364L), constant<T>(-0.066666667L)));
   return PiecewiseProfile<T>(std::move(pieces));
 }

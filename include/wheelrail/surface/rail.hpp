@@ -8,9 +8,10 @@
 /// the left rail, backwards on the right one. Right-handed on both sides.
 
 #include <utility>
+#include <vector>
 #include <wheelrail/core/side.hpp>
 #include <wheelrail/core/vector.hpp>
-#include <wheelrail/profile/profile.hpp>
+#include <wheelrail/profile/inspection.hpp>
 
 namespace wheelrail {
 
@@ -23,6 +24,7 @@ struct RailFrame {
   Matrix3<T> axes_track = Matrix3<T>::Identity();
   /// Angle by which the rail's y axis rises above the track plane towards the field side [rad].
   T inclination = T(0);
+  T arc_length = T(0);  ///< of the frame's origin along the track [m]
 
   /// A direction given in the track frame, in the rail frame.
   [[nodiscard]] Vector3<T> direction_rail(const Vector3<T>& direction_track) const {
@@ -48,6 +50,19 @@ struct RailFrame {
   }
 };
 
+namespace detail {
+
+template <Profile P>
+[[nodiscard]] bool is_convex(const P& profile) {
+  using T = typename P::Scalar;
+  for (const auto& joint : inspect_joints(profile)) {
+    if (joint.slope_jump < -constant<T>(1e-6L)) return false;
+  }
+  return concave_intervals(profile).empty();
+}
+
+}  // namespace detail
+
 /// A rail: its profile swept along x of the rail frame.
 /// @note Queries do not allocate. Differentiable wherever the profile is.
 template <Profile P>
@@ -57,9 +72,34 @@ class Rail {
   using T = Scalar;
   using ProfileType = P;
 
-  explicit Rail(P profile) : profile_(std::move(profile)) {}
+  explicit Rail(P profile) : profile_(std::move(profile)), is_convex_(detail::is_convex(profile_)) {
+    constexpr int samples = 256;
+    for (int piece = 0; piece < profile_.piece_count(); ++piece) {
+      const T lower = profile_.joint(piece), upper = profile_.joint(piece + 1);
+      T least = curvature(profile_.evaluate(piece, lower));
+      for (int i = 1; i <= samples; ++i) {
+        const T u = i == samples ? upper : T(lower + (upper - lower) * T(i) / T(samples));
+        least = detail::min(least, curvature(profile_.evaluate(piece, u)));
+      }
+      least_curvatures_.push_back(least);
+    }
+  }
 
   [[nodiscard]] const P& profile() const { return profile_; }
+
+  /// Whether the profile has no concave zone and no concave corner, as `inspect_joints` and
+  /// `concave_intervals` see it (jumps of the slope below 1e-6 pass). Searches use it.
+  [[nodiscard]] bool is_convex() const { return is_convex_; }
+
+  /// The least curvature of the pieces between two lateral coordinates [1/m], from samples.
+  [[nodiscard]] T least_curvature(const T& one, const T& other) const {
+    const int a = piece_of(profile_, one), b = piece_of(profile_, other);
+    T least = least_curvatures_[static_cast<std::size_t>(a < b ? a : b)];
+    for (int piece = (a < b ? a : b) + 1; piece <= (a < b ? b : a); ++piece) {
+      least = detail::min(least, least_curvatures_[static_cast<std::size_t>(piece)]);
+    }
+    return least;
+  }
 
   /// (3), (60): the surface point [m], rail frame.
   [[nodiscard]] static Vector3<T> position_rail(const T& arc_length, const T& lateral,
@@ -89,6 +129,8 @@ class Rail {
 
  private:
   P profile_;
+  bool is_convex_;
+  std::vector<T> least_curvatures_;  // of each piece
 };
 
 }  // namespace wheelrail

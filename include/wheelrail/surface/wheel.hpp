@@ -12,6 +12,7 @@
 #include <wheelrail/core/require.hpp>
 #include <wheelrail/core/vector.hpp>
 #include <wheelrail/profile/profile.hpp>
+#include <wheelrail/surface/strip_tree.hpp>
 
 namespace wheelrail {
 
@@ -38,10 +39,13 @@ class Wheel {
   using ProfileType = P;
 
   /// @param nominal_radius [m], the radius at the tread circle (lateral = 0, F = 0).
-  /// @throws std::invalid_argument unless nominal_radius is finite and > 0 and every joint of the
-  ///   profile has a positive radius.
-  Wheel(P profile, const T& nominal_radius)
-      : profile_(std::move(profile)), nominal_radius_(nominal_radius) {
+  /// @param strip_spacing neighbouring strips of a contact search are at most this far apart [m].
+  /// @throws std::invalid_argument unless nominal_radius and strip_spacing are finite and > 0 and
+  ///   every joint of the profile has a positive radius.
+  Wheel(P profile, const T& nominal_radius, const T& strip_spacing = constant<T>(0.5e-3L))
+      : profile_(std::move(profile)),
+        nominal_radius_(nominal_radius),
+        strips_(profile_, nominal_radius, strip_spacing) {
     detail::require_positive("wheel: nominal radius", nominal_radius_, "[m]");
     for (int i = 0; i <= profile_.piece_count(); ++i) {
       const T lateral = profile_.joint(i);
@@ -55,6 +59,7 @@ class Wheel {
 
   [[nodiscard]] const P& profile() const { return profile_; }
   [[nodiscard]] const T& nominal_radius() const { return nominal_radius_; }
+  [[nodiscard]] const StripTree<T>& strips() const { return strips_; }
 
   /// The rolling radius [m] at @p point of the profile.
   [[nodiscard]] T radius(const ProfilePoint<T>& point) const {
@@ -105,6 +110,7 @@ class Wheel {
  private:
   P profile_;
   T nominal_radius_;
+  StripTree<T> strips_;
 };
 
 }  // namespace wheelrail

@@ -9,7 +9,7 @@
 
 #include <array>
 #include <wheelrail/surface/rail.hpp>
-#include <wheelrail/track/detail/inclined_profile.hpp>
+#include <wheelrail/track/detail/rail_seat.hpp>
 
 namespace wheelrail {
 
@@ -29,38 +29,24 @@ class TangentTrack {
   using RailProfile = R;
 
   /// @param profile of both rails, not yet inclined, lateral coordinate to the field side.
-  /// @throws std::invalid_argument unless the gauge is > 0 and wider than the heads overlap, the
+  /// @throws std::invalid_argument unless the gauge is > 0 and the heads do not overlap, the
   ///   inclination is in (-0.5, 0.5), and the profile reaches 14 mm below its highest point.
   explicit TangentTrack(R profile, const TrackDimensions<T>& dimensions = {})
       : rail_(std::move(profile)), dimensions_(dimensions) {
     using std::atan;
-    using std::sqrt;
-    detail::require_positive("track: gauge", dimensions_.gauge, "[m]");
-    const T limit = constant<T>(0.5L);
-    detail::require(
-        is_finite(dimensions_.inclination) && detail::magnitude(dimensions_.inclination) < limit,
-        "track: inclination", dimensions_.inclination, "between -0.5 and 0.5 [-]");
-    const T slope = dimensions_.inclination;
-    const T cosine = T(1) / sqrt(T(T(1) + slope * slope));
-    const T sine = slope * cosine;
-    const detail::InclinedProfile<R> inclined{rail_.profile(), sine, cosine};
-    const T top = inclined.highest();
-    const T gauge_point = inclined.gauge_point(top, detail::gauge_depth<T>());
-    const auto at_top = rail_.profile().evaluate(top);
-    const auto at_gauge = rail_.profile().evaluate(gauge_point);
-    const T half_distance = dimensions_.gauge / T(2) - inclined.outboard(gauge_point, at_gauge);
-    const T height = -inclined.up(top, at_top);
-    head_distance_ = T(2) * (half_distance + inclined.outboard(top, at_top));
+    const auto seat =
+        detail::RailSeat<T>::of(rail_.profile(), dimensions_.gauge, dimensions_.inclination);
+    head_distance_ = seat.head_distance;
     for (const Side side : sides) {
       const T sign = outboard_sign<T>(side);
       RailFrame<T>& frame = frames_[index_of(side)];
       frame.side = side;
-      frame.origin_track = Vector3<T>(T(0), sign * half_distance, height);
+      frame.origin_track = Vector3<T>(T(0), sign * seat.half_distance, seat.height);
       // y to the field side, rising; z leaning inwards; x = y x z.
-      frame.axes_track << sign, T(0), T(0),   //
-          T(0), sign * cosine, -sign * sine,  //
-          T(0), sine, cosine;
-      frame.inclination = atan(slope);
+      frame.axes_track << sign, T(0), T(0),             //
+          T(0), sign * seat.cosine, -sign * seat.sine,  //
+          T(0), seat.sine, seat.cosine;
+      frame.inclination = atan(dimensions_.inclination);
     }
   }
 
@@ -71,8 +57,11 @@ class TangentTrack {
   [[nodiscard]] const T& head_distance() const { return head_distance_; }
 
   /// The rail frame at the foot of @p point_track on the rail's path: (36), closed form here.
-  [[nodiscard]] RailFrame<T> nearest_frame(Side side, const Vector3<T>& point_track) const {
+  /// The guess of the arc length, which other tracks need, does not matter.
+  [[nodiscard]] RailFrame<T> nearest_frame(Side side, const Vector3<T>& point_track,
+                                           const T& /*guess*/ = T(0)) const {
     RailFrame<T> frame = frames_[index_of(side)];
+    frame.arc_length = point_track.x();
     frame.origin_track.x() = point_track.x();
     return frame;
   }

@@ -8,6 +8,7 @@
 
 namespace wheelrail {
 
+/// How a wheelset is to be set down.
 template <Real T>
 struct TouchingOptions {
   T gap = T(0);  ///< distance left between each wheel and its rail [m]; negative: penetration
@@ -17,31 +18,36 @@ struct TouchingOptions {
   int maximum_iterations = 40;
 };
 
+/// A wheelset set down. Invariant: status == converged implies residual <= the tolerance.
 template <Real T>
 struct TouchingPosition {
-  WheelsetPosition<T> position;
+  WheelsetPosition<T> position;     ///< track frame
   T height{};                       ///< of the axle's centre [m]
   T roll{};                         ///< [rad]
   std::array<Patch<T>, 2> patches;  ///< nearest points, left and right; penetration = -gap
-  T residual{};
+  T residual{};                     ///< the greater |penetration + gap| of both wheels [m]
   int iterations = 0;
   SolveStatus status = SolveStatus::not_finite;
 };
 
 namespace detail {
 
-/// The deepest point of a wheel, penetrating or not. `wheel_lateral` is NaN where there is none.
+/// The deepest point of a wheel, penetrating or not. `wheel_lateral` is NaN where there is none or
+/// the search failed.
 template <Profile P, Profile R>
 [[nodiscard]] Patch<typename P::Scalar> nearest_point(
     const Wheel<P>& wheel, const Rail<R>& rail,
     const WheelPlacement<typename P::Scalar>& placement) {
   using T = typename P::Scalar;
-  // A threshold below any distance that can occur: all of the wheel is one zone.
+  // A threshold below any distance that can occur: all of the wheel is one zone. While the solution
+  // is sought, the wheel may lie deep in the rail.
   const auto found =
       find_contact(wheel, rail, placement,
-                   SearchOptions<T>{.penetration_threshold = -T(10) * wheel.nominal_radius()});
+                   SearchOptions<T>{.penetration_threshold = -T(10) * wheel.nominal_radius(),
+                                    .maximum_penetration = wheel.nominal_radius()});
   Patch<T> deepest;
   deepest.wheel_lateral = T(0) / T(0);
+  if (found.status != SearchStatus::complete) return deepest;
   bool any = false;
   for (const Patch<T>& patch : found.patches) {
     if (any && patch.penetration <= deepest.penetration) continue;
@@ -56,15 +62,16 @@ template <Profile P, Profile R>
 /// Solves for height and roll by Newton's method with the derivatives of the penetrations that the
 /// contact normals give.
 /// @param lateral_shift of the axle's centre, to the left [m]. @param yaw to the left [rad].
-/// @return status converged when both wheels are at the gap. Near a jump of the contact point,
-/// where
+/// @param longitudinal x of the axle's centre [m]; the track is straight along x there.
+/// @return status converged when both wheels are at the gap. Near a jump of the contact point, where
 ///   two points are equally near, the iteration may alternate and reach its limit.
 /// @note Does not allocate.
 template <Profile P, class Track>
 [[nodiscard]] TouchingPosition<typename P::Scalar> touching_position(
     const Wheelset<P>& wheelset, const Track& track, const typename P::Scalar& lateral_shift,
     const typename P::Scalar& yaw = typename P::Scalar(0),
-    const TouchingOptions<typename P::Scalar>& options = {}) {
+    const TouchingOptions<typename P::Scalar>& options = {},
+    const typename P::Scalar& longitudinal = typename P::Scalar(0)) {
   using std::cos;
   using std::sin;
   using T = typename P::Scalar;
@@ -77,12 +84,13 @@ template <Profile P, class Track>
   result.roll = T(0);
   while (true) {
     result.position = WheelsetPosition<T>::of(lateral_shift, result.height, result.roll, yaw);
+    result.position.position_track.x() = result.position.arc_length = longitudinal;
     Vector2<T> error;
     Eigen::Matrix<T, 2, 2, Eigen::DontAlign> slope;
     for (const Side side : sides) {
       const auto row = static_cast<Eigen::Index>(index_of(side));
       const Vector3<T> wheel_track = wheelset.wheel_track(side, result.position);
-      const RailFrame<T> frame = track.nearest_frame(side, wheel_track);
+      const RailFrame<T> frame = track.nearest_frame(side, wheel_track, longitudinal);
       const Patch<T> patch =
           detail::nearest_point(wheelset.wheel(side), track.rail(side),
                                 place_wheel(wheelset, track, side, result.position));

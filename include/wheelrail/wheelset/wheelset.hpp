@@ -25,11 +25,14 @@ template <Real T>
 struct WheelsetPosition {
   Vector3<T> position_track = Vector3<T>::Zero();  ///< the axle's centre [m]
   Vector3<T> axle_track = Vector3<T>::UnitY();     ///< unit vector along the axle to the left
+  /// Where along a curved track the rails are looked for first [m]: that of the time before. The
+  /// result does not depend on it. A tangent track needs none.
+  T arc_length = T(0);
 
   /// From lateral shift (to the left) and height of the axle's centre [m], roll and yaw [rad].
   [[nodiscard]] static WheelsetPosition of(const T& lateral_shift, const T& height, const T& roll,
                                            const T& yaw) {
-    return {Vector3<T>(T(0), lateral_shift, height), axle_direction(roll, yaw)};
+    return {Vector3<T>(T(0), lateral_shift, height), axle_direction(roll, yaw), T(0)};
   }
 };
 
@@ -75,14 +78,14 @@ class Wheelset {
 };
 
 /// The placement of one wheel of a wheelset over its rail.
-/// @param track anything with `nearest_frame(side, point_track)`, as TangentTrack has.
+/// @param track anything with `nearest_frame(side, point_track, guess)`, as TangentTrack has.
 template <Profile P, class Track>
 [[nodiscard]] WheelPlacement<typename P::Scalar> place_wheel(
     const Wheelset<P>& wheelset, const Track& track, Side side,
     const WheelsetPosition<typename P::Scalar>& at) {
   using T = typename P::Scalar;
   const Vector3<T> wheel_track = wheelset.wheel_track(side, at);
-  return place_wheel(track.nearest_frame(side, wheel_track), wheel_track,
+  return place_wheel(track.nearest_frame(side, wheel_track, at.arc_length), wheel_track,
                      Vector3<T>(outboard_sign<T>(side) * at.axle_track));
 }
 

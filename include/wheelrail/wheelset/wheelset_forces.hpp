@@ -9,9 +9,8 @@
 
 namespace wheelrail {
 
-/// A patch with its forces. The contact frame's axes are right-handed on both sides:
-/// longitudinal_track forward, lateral_track to the left, normal_track from the rail into the
-/// wheel.
+/// A patch with its forces. The contact frame is right-handed on both sides: longitudinal_track
+/// points forward, lateral_track to the left, normal_track from the rail into the wheel.
 template <Real T>
 struct PatchForce {
   Patch<T> patch;
@@ -30,8 +29,9 @@ struct WheelForces {
   FixedList<PatchForce<T>, ContactResult<T>::maximum_patches> patches;
   Vector3<T> force_track = Vector3<T>::Zero();   ///< sum over the patches [N]
   Vector3<T> moment_track = Vector3<T>::Zero();  ///< about the axle's centre [N m]
-  SearchStatus status = SearchStatus::complete;
-  int evaluations = 0;
+  T arc_length{};                                ///< of the rail frame under the wheel [m]
+  SearchStatus status = SearchStatus::complete;  ///< of the search: what patches can be relied on
+  int evaluations = 0;  ///< of the search, as ContactResult counts them [-]
 };
 
 /// Both wheels and the wrench of the rails on the wheelset.
@@ -93,12 +93,11 @@ template <Real T>
 }  // namespace detail
 
 /// The forces of the track on a wheelset.
-/// @param track anything with `rail(side)` and `nearest_frame(side, point_track)`.
+/// @param track anything with `rail(side)` and `nearest_frame(side, point_track, guess)`.
 /// @param at where the wheelset is, @param motion how it moves, both in the track frame.
 /// @param search StripSearch for any profile, MinimumDistanceSearch for convex ones.
 /// @return patches, forces and the wrench about the axle's centre. The creep moment about a
-/// contact's
-///   normal is neglected (80).
+///   contact's normal is neglected (80).
 /// @note Does not allocate. A mirrored input gives the mirrored result to the last bit.
 template <Profile P, class Track, class Search = StripSearch<typename P::Scalar>>
 [[nodiscard]] WheelsetForces<typename P::Scalar> wheelset_forces(
@@ -109,12 +108,13 @@ template <Profile P, class Track, class Search = StripSearch<typename P::Scalar>
   WheelsetForces<T> result;
   for (const Side side : sides) {
     const Vector3<T> wheel_track = wheelset.wheel_track(side, at);
-    const RailFrame<T> frame = track.nearest_frame(side, wheel_track);
+    const RailFrame<T> frame = track.nearest_frame(side, wheel_track, at.arc_length);
     const ContactResult<T> found =
         search(wheelset.wheel(side), track.rail(side),
                place_wheel(frame, wheel_track, Vector3<T>(outboard_sign<T>(side) * at.axle_track)));
     WheelForces<T>& wheel = result.wheels[index_of(side)];
     wheel.status = found.status;
+    wheel.arc_length = frame.arc_length;
     wheel.evaluations = found.evaluations;
     for (const Patch<T>& patch : found.patches) {
       const PatchForce<T> force = detail::patch_force(patch, frame, at, motion, model);

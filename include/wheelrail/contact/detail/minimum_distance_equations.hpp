@@ -30,8 +30,8 @@ class MinimumDistanceEquations {
   struct Evaluation {
     Vector residual;  // two lengths [m], two cosines [-]
     Matrix jacobian;
-    Vector3<T> distance_rail;  // d of (29)
-    Vector3<T> normal_rail;    // n_r
+    Vector3<T> distance_rail;     // d of (29)
+    Vector3<T> rail_normal_rail;  // n_r
   };
 
   [[nodiscard]] Evaluation operator()(const Vector& x) const {
@@ -50,60 +50,69 @@ class MinimumDistanceEquations {
     const T wheel_turn = -on_wheel.second_derivative / (wheel_length * wheel_length);
     const T radius = wheel_.radius(on_wheel);
 
-    const Vector3<T> n_r = Rail<R>::normal_rail(on_rail);
-    const Vector3<T> t_ru = Rail<R>::lateral_tangent_rail(on_rail);
-    const Vector3<T> t_rs = Vector3<T>::UnitX();
-    const Vector3<T> n_w = turned(Wheel<P>::normal_wheel(on_wheel, angle));
-    const Vector3<T> t_wu = turned(Wheel<P>::lateral_tangent_wheel(on_wheel, angle));
-    const Vector3<T> t_ws = turned(Wheel<P>::longitudinal_tangent_wheel(angle));
-    const Vector3<T> q =
+    const Vector3<T> rail_normal_rail = Rail<R>::normal_rail(on_rail);
+    const Vector3<T> rail_lateral_tangent_rail = Rail<R>::lateral_tangent_rail(on_rail);
+    const Vector3<T> along_rail = Vector3<T>::UnitX();
+    const Vector3<T> wheel_normal_rail = turned(Wheel<P>::normal_wheel(on_wheel, angle));
+    const Vector3<T> wheel_lateral_tangent_rail =
+        turned(Wheel<P>::lateral_tangent_wheel(on_wheel, angle));
+    const Vector3<T> wheel_longitudinal_tangent_rail =
+        turned(Wheel<P>::longitudinal_tangent_wheel(angle));
+    const Vector3<T> wheel_point_rail =
         placement_.position_rail + turned(wheel_.position_wheel(u_w, on_wheel, angle));
-    const Vector3<T> d = q - Rail<R>::position_rail(x(0), u_r, on_rail);
+    const Vector3<T> distance_rail = wheel_point_rail - Rail<R>::position_rail(x(0), u_r, on_rail);
 
-    // Derivatives of d by the four unknowns.
-    const Vector3<T> d_by[4] = {-t_rs, -rail_length * t_ru, -radius * t_ws, wheel_length * t_wu};
-    // Derivatives of the wheel's tangents and normal by s_w; those by u_w are multiples of n_w,
-    // t_wu.
+    // Derivatives of the distance vector by the four unknowns.
+    const Vector3<T> distance_by_rail[4] = {-along_rail, -rail_length * rail_lateral_tangent_rail,
+                                            -radius * wheel_longitudinal_tangent_rail,
+                                            wheel_length * wheel_lateral_tangent_rail};
+    // Derivatives of the wheel's tangents and normal by the wheel angle; those by wheel_lateral are
+    // multiples of its normal and lateral tangent.
     const T sine_gamma = -on_wheel.slope / wheel_length;
     const T cosine_gamma = T(1) / wheel_length;
-    const Vector3<T> t_ws_by_angle = turned(Vector3<T>(-angle.sine, T(0), -angle.cosine));
-    const Vector3<T> t_wu_by_angle = sine_gamma * t_ws;
-    const Vector3<T> n_w_by_angle = -cosine_gamma * t_ws;
+    const Vector3<T> longitudinal_tangent_by_angle_rail =
+        turned(Vector3<T>(-angle.sine, T(0), -angle.cosine));
+    const Vector3<T> lateral_tangent_by_angle_rail = sine_gamma * wheel_longitudinal_tangent_rail;
+    const Vector3<T> normal_by_angle_rail = -cosine_gamma * wheel_longitudinal_tangent_rail;
 
     Evaluation at;
-    at.distance_rail = d;
-    at.normal_rail = n_r;
+    at.distance_rail = distance_rail;
+    at.rail_normal_rail = rail_normal_rail;
     Matrix& j = at.jacobian;
     if (form_ == MinimumDistanceForm::wheel_normal) {
-      at.residual << d.dot(t_wu), d.dot(t_ws), n_r.dot(t_wu), n_r.dot(t_ws);
+      at.residual << distance_rail.dot(wheel_lateral_tangent_rail),
+          distance_rail.dot(wheel_longitudinal_tangent_rail),
+          rail_normal_rail.dot(wheel_lateral_tangent_rail),
+          rail_normal_rail.dot(wheel_longitudinal_tangent_rail);
       for (int k = 0; k < 4; ++k) {
-        j(0, k) = d_by[k].dot(t_wu);
-        j(1, k) = d_by[k].dot(t_ws);
+        j(0, k) = distance_by_rail[k].dot(wheel_lateral_tangent_rail);
+        j(1, k) = distance_by_rail[k].dot(wheel_longitudinal_tangent_rail);
       }
-      j(0, 2) += d.dot(t_wu_by_angle);
-      j(1, 2) += d.dot(t_ws_by_angle);
-      j(0, 3) -= wheel_turn * d.dot(n_w);
+      j(0, 2) += distance_rail.dot(lateral_tangent_by_angle_rail);
+      j(1, 2) += distance_rail.dot(longitudinal_tangent_by_angle_rail);
+      j(0, 3) -= wheel_turn * distance_rail.dot(wheel_normal_rail);
       j(2, 0) = j(3, 0) = T(0);
-      j(2, 1) = -rail_turn * t_ru.dot(t_wu);
-      j(3, 1) = -rail_turn * t_ru.dot(t_ws);
-      j(2, 2) = n_r.dot(t_wu_by_angle);
-      j(3, 2) = n_r.dot(t_ws_by_angle);
-      j(2, 3) = -wheel_turn * n_r.dot(n_w);
+      j(2, 1) = -rail_turn * rail_lateral_tangent_rail.dot(wheel_lateral_tangent_rail);
+      j(3, 1) = -rail_turn * rail_lateral_tangent_rail.dot(wheel_longitudinal_tangent_rail);
+      j(2, 2) = rail_normal_rail.dot(lateral_tangent_by_angle_rail);
+      j(3, 2) = rail_normal_rail.dot(longitudinal_tangent_by_angle_rail);
+      j(2, 3) = -wheel_turn * rail_normal_rail.dot(wheel_normal_rail);
       j(3, 3) = T(0);
     } else {
-      at.residual << d.dot(t_ru), d.dot(t_rs), n_w.dot(t_ru), n_w.dot(t_rs);
+      at.residual << distance_rail.dot(rail_lateral_tangent_rail), distance_rail.dot(along_rail),
+          wheel_normal_rail.dot(rail_lateral_tangent_rail), wheel_normal_rail.dot(along_rail);
       for (int k = 0; k < 4; ++k) {
-        j(0, k) = d_by[k].dot(t_ru);
-        j(1, k) = d_by[k].dot(t_rs);
+        j(0, k) = distance_by_rail[k].dot(rail_lateral_tangent_rail);
+        j(1, k) = distance_by_rail[k].dot(along_rail);
       }
-      j(0, 1) += rail_turn * d.dot(n_r);
+      j(0, 1) += rail_turn * distance_rail.dot(rail_normal_rail);
       j(2, 0) = j(3, 0) = T(0);
-      j(2, 1) = rail_turn * n_w.dot(n_r);
+      j(2, 1) = rail_turn * wheel_normal_rail.dot(rail_normal_rail);
       j(3, 1) = T(0);
-      j(2, 2) = n_w_by_angle.dot(t_ru);
-      j(3, 2) = n_w_by_angle.dot(t_rs);
-      j(2, 3) = wheel_turn * t_wu.dot(t_ru);
-      j(3, 3) = wheel_turn * t_wu.dot(t_rs);
+      j(2, 2) = normal_by_angle_rail.dot(rail_lateral_tangent_rail);
+      j(3, 2) = normal_by_angle_rail.dot(along_rail);
+      j(2, 3) = wheel_turn * wheel_lateral_tangent_rail.dot(rail_lateral_tangent_rail);
+      j(3, 3) = wheel_turn * wheel_lateral_tangent_rail.dot(along_rail);
     }
     return at;
   }
