@@ -692,3 +692,33 @@ TEST_CASE("find_contact: what the bound leaves out does not change the result",
   CHECK(several > 20);
   CHECK(2 * with_bound < without);
 }
+
+TEST_CASE("find_contact: no iteration fails, also at 50 mrad of yaw", "[contact][random]") {
+  long searches = 0, patches = 0, failures = 0;
+  const auto count = [&](const auto& profile, const RailHead<double>& head) {
+    const Wheel wheel(profile, 0.43);
+    const TangentTrack track(head);
+    std::mt19937 random(5);
+    const auto between = [&random](double lower, double upper) {
+      return lower + (upper - lower) * (static_cast<double>(random()) / 4294967296.0);
+    };
+    for (int i = 0; i < 20000; ++i) {
+      const double yaw = between(-0.05, 0.05), roll = between(-0.01, 0.01);
+      const Vector3<double> axle_track(-std::sin(yaw) * std::cos(roll),
+                                       std::cos(yaw) * std::cos(roll), std::sin(roll));
+      const Vector3<double> wheel_track =
+          Vector3<double>(0, between(-0.012, 0.012), between(0.4285, 0.4345)) + 0.75 * axle_track;
+      const auto found = find_contact(
+          wheel, track.rail(Side::left),
+          place_wheel(track.nearest_frame(Side::left, wheel_track), wheel_track, axle_track));
+      ++searches;
+      patches += static_cast<long>(found.patches.size());
+      failures += found.status == SearchStatus::not_converged;
+    }
+  };
+  count(s1002<double>(), uic50<double>());
+  count(s1002<double>(), rail_60e1<double>());
+  count(ConvexModification(s1002<double>()), uic50<double>());
+  CHECK(failures == 0);
+  CHECK(patches > searches / 4);
+}

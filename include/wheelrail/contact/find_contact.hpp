@@ -236,15 +236,24 @@ class StripWalk {
     if (is_minimum && !(penetrates(left) && penetrates(right))) return;
     const T width = right.wheel_lateral - left.wheel_lateral;
     bool lost = false;
+    Strip before;
     const auto root = bracketed_newton<T>(
         [&](const T& u) {
           const Strip at = strip(left.piece, u);
           lost = lost || !at.exists;
-          return ValueAndSlope<T>{at.slope, at.slope_rate};
+          // The rate leaves out what yaw does to it: from the second strip on, a secant has it.
+          const T rate =
+              before.exists
+                  ? T((at.slope - before.slope) / (at.wheel_lateral - before.wheel_lateral))
+                  : at.slope_rate;
+          before = at;
+          return ValueAndSlope<T>{at.slope, rate};
         },
         left.wheel_lateral, right.wheel_lateral, left.slope, right.slope,
         T(left.wheel_lateral + width * left.slope / (left.slope - right.slope)),
-        {.step_tolerance = T(2) * epsilon<T>() * wheel_.nominal_radius()});
+        // Where the bodies nearly conform, the slope's rounding outweighs its rate.
+        {.step_tolerance = T(2) * epsilon<T>() * wheel_.nominal_radius(),
+         .residual_tolerance = T(4) * epsilon<T>()});
     if (root.status != SolveStatus::converged || lost) {
       result_.status = SearchStatus::not_converged;
       return;
@@ -306,7 +315,7 @@ class StripWalk {
         },
         left.wheel_lateral, right.wheel_lateral, T(left.penetration - threshold),
         T(right.penetration - threshold), boundary_start(left, right),
-        {.step_tolerance = step_tolerance()});
+        {.step_tolerance = step_tolerance(), .residual_tolerance = margin_ / T(16)});
     if (root.status != SolveStatus::converged || lost) {
       result_.status = SearchStatus::not_converged;
     }
