@@ -30,6 +30,11 @@
 /// Gauge: the distance of the inner faces 14 mm below the heads' highest points. Inclination: the
 /// slope by which a rail's profile is turned about its origin towards the middle of the track.
 ///
+/// Curved track: heading, curvature and turn are positive to the left. Cant is the height of the right
+/// rail over the left, positive where the track leans into a left curve; the track plane turns about
+/// the centre line, which stays at z = 0. The arc length of both rails is that of the centre line. The
+/// track frame is that of the start of the centre line; inclination stays against the canted plane.
+///
 /// Signs: penetration is positive in contact and its velocity positive while it grows. Curvature is
 /// positive where a body is convex. Contact angle: slope of the contact plane against the track
 /// plane, rising to the field side, so positive on the flanges of both wheels. Wheel angle:

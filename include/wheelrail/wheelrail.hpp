@@ -11,6 +11,9 @@
 #include <wheelrail/profile/inspection.hpp>
 #include <wheelrail/profile/rail_head.hpp>
 #include <wheelrail/profile/s1002.hpp>
+#include <wheelrail/track/centre_line.hpp>
+#include <wheelrail/track/irregularities.hpp>
+#include <wheelrail/track/nodal_track.hpp>
 #include <wheelrail/track/tangent_track.hpp>
 #include <wheelrail/wheelset/fit.hpp>
 #include <wheelrail/wheelset/search_method.hpp>

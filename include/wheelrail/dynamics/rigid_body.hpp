@@ -41,7 +41,9 @@ class RigidBody {
       const T others = moments_body((i + 1) % 3) + moments_body((i + 2) % 3);
       detail::require(moments_body(i) <= others * (T(1) + T(4) * epsilon<T>()), names[i],
                       moments_body(i),
-                      "at most the sum of the other two, " + detail::to_text(others) + " kg m2");
+                      std::string("at most the sum of the other two, ")
+                          .append(detail::to_text(others))
+                          .append(" kg m2"));
     }
   }
 

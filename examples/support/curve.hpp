@@ -1,0 +1,50 @@
+#pragma once
+// The curve of the third case (§6.3 of the paper): left, R 300 m. The paper does not state its
+// transitions and cant; these are plausible ones with which the flange contact begins at about 5.2 s
+// and ends at about 37 s at 18.3 m/s. Nothing else is fitted.
+
+#include <wheelrail/track/nodal_track.hpp>
+
+#include "profiles.hpp"
+#include "vehicle_run.hpp"
+
+namespace examples {
+
+struct CurveLayout {
+  double approach = 102;   // tangent before the curve [m]
+  double transition = 60;  // clothoids, along which the cant rises and falls [m]
+  double arc = 462;        // [m]
+  double radius = 300;     // to the left [m]
+  double cant = 0.12;      // of the right rail over the left; 0.17 m would balance 18.3 m/s [m]
+  double departure = 140;  // tangent behind the curve [m]
+};
+
+[[nodiscard]] inline wheelrail::NodalTrack<RailHead> curved_track(
+    const RailHead& rail, const CurveLayout& layout,
+    const wheelrail::TrackDimensions<double>& dimensions) {
+  using Segment = wheelrail::TrackSegment<double>;
+  return wheelrail::NodalTrack<RailHead>(
+      rail,
+      wheelrail::CentreLine<double>(
+          {Segment::tangent(layout.approach), Segment::clothoid(layout.transition),
+           Segment::arc(layout.arc, layout.radius, wheelrail::Side::left, layout.cant),
+           Segment::clothoid(layout.transition), Segment::tangent(layout.departure)}),
+      dimensions);
+}
+
+// Where the vehicle's middle starts, so that its rear wheelset is on the track [m].
+inline constexpr double vehicle_start = 10;
+
+// Throws unless the track is longer than the run.
+template <class Track>
+void require_length(const Track& track, const Vehicle& vehicle, const VehicleCase& run) {
+  double front = 0;
+  for (const auto& position : vehicle.positions) front = std::max(front, position.x());
+  const double needed = run.start + front + run.speed * run.duration + 1;
+  if (track.length() < needed) {
+    throw std::invalid_argument("the track is " + std::to_string(track.length()) +
+                                " m long, but the run needs " + std::to_string(needed) + " m");
+  }
+}
+
+}  // namespace examples
