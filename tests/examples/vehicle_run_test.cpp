@@ -3,11 +3,12 @@
 
 #include "support/vehicle_run.hpp"
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 
 #include "../support/catch.hpp"
-#include <unistd.h>
 #include "support/curve.hpp"
 #include "support/profiles.hpp"
 #include "support/vehicle_output.hpp"
