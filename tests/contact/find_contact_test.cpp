@@ -668,7 +668,9 @@ TEST_CASE("find_contact: what the bound leaves out does not change the result",
   long with_bound = 0, without = 0;
   int touching = 0, several = 0;
   for (int i = 0; i < 4000; ++i) {
-    const Vector3<double> wheel_track(0, 0.75 + between(-0.008, 0.008), between(0.4294, 0.4306));
+    const double height = between(0.4294, 0.4306);
+    const double lateral = 0.75 + between(-0.008, 0.008);
+    const Vector3<double> wheel_track(0, lateral, height);
     const double yaw = between(-0.03, 0.03), roll = between(-0.01, 0.01);
     const Vector3<double> axle_track(-std::sin(yaw) * std::cos(roll),
                                      std::cos(yaw) * std::cos(roll), std::sin(roll));
@@ -704,10 +706,11 @@ TEST_CASE("find_contact: no iteration fails, also at 50 mrad of yaw", "[contact]
     };
     for (int i = 0; i < 20000; ++i) {
       const double yaw = between(-0.05, 0.05), roll = between(-0.01, 0.01);
+      const double lateral_shift = between(-0.012, 0.012), height = between(0.4285, 0.4345);
       const Vector3<double> axle_track(-std::sin(yaw) * std::cos(roll),
                                        std::cos(yaw) * std::cos(roll), std::sin(roll));
       const Vector3<double> wheel_track =
-          Vector3<double>(0, between(-0.012, 0.012), between(0.4285, 0.4345)) + 0.75 * axle_track;
+          Vector3<double>(0, lateral_shift, height) + 0.75 * axle_track;
       const auto found = find_contact(
           wheel, track.rail(Side::left),
           place_wheel(track.nearest_frame(Side::left, wheel_track), wheel_track, axle_track));
