@@ -208,10 +208,17 @@ TEST_CASE("wheelset case: the energy error falls with the tolerance over all of 
   check_energy_order(10);
 }
 
-TEST_CASE("wheelset case: with friction and damping the energy only falls", "[examples]") {
-  ContactForceOptions<double> options;  // mu 0.25, c_e 0.75
-  options.constant_stiffness = 8e10;
-  const auto balance = energy_balance(options, 1e-8, 2, 1e-6);
-  CHECK(balance.final_loss > 1e-6 * balance.kinetic);
-  CHECK(balance.greatest_rise < 1e-8 * balance.kinetic);
+// Polach's law without the spin moment (80) is not dissipative at every instant: the spin's share of
+// the lateral force does some work on the wheelset. Over 10 s it lifts the energy by 5.5e-9 of the
+// kinetic energy above an earlier value, whatever the tolerance.
+TEST_CASE("wheelset case: with friction and damping the energy does not grow by 1e-8 of it",
+          "[examples]") {
+  for (const double stiffness : {8e10, 0.0}) {
+    CAPTURE(stiffness);
+    ContactForceOptions<double> options;  // mu 0.25, c_e 0.75
+    options.constant_stiffness = stiffness;
+    const auto balance = energy_balance(options, 1e-7, 10, 1e-6);
+    CHECK(balance.final_loss > 1e-6 * balance.kinetic);
+    CHECK(balance.greatest_rise < 1e-8 * balance.kinetic);
+  }
 }
