@@ -51,3 +51,9 @@ TEST_CASE("cross: the same for a scalar that converts to nothing", "[core]") {
   const auto expected = cross(Vector3<double>(1, 2, 3), Vector3<double>(-4, 5, 7));
   for (int i = 0; i < 3; ++i) CHECK(product[i].as_double() == expected[i]);
 }
+
+TEST_CASE("dot: the sum of the products, for a scalar that converts to nothing too", "[core]") {
+  CHECK(dot(Vector3<double>(1, 2, 3), Vector3<double>(-4, 5, 7)) == 27);
+  const Vector3<StrictScalar> a(StrictScalar(1), StrictScalar(2), StrictScalar(3));
+  CHECK(dot(a, a).as_double() == 14);
+}

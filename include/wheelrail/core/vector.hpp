@@ -32,4 +32,10 @@ template <Real T>
                     a.x() * b.y() - a.y() * b.x());
 }
 
+/// a . b, in this order of operations for any scalar.
+template <Real T>
+[[nodiscard]] inline T dot(const Vector3<T>& a, const Vector3<T>& b) {
+  return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
+}
+
 }  // namespace wheelrail

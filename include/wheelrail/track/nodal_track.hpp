@@ -104,9 +104,6 @@ class NodalTrack {
   using Node = Eigen::Matrix<T, 3, 3, Eigen::DontAlign>;  // columns: position, tangent, normal
   using Path = CubicSpline<T, Node>;
 
-  [[nodiscard]] static T dot(const Vector3<T>& a, const Vector3<T>& b) {
-    return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
-  }
   [[nodiscard]] static Vector3<T> unit(const Vector3<T>& a) {
     using std::sqrt;
     return (T(1) / sqrt(dot(a, a))) * a;

@@ -46,11 +46,6 @@ struct WheelsetForces {
 
 namespace detail {
 
-template <Real T>
-[[nodiscard]] T dot(const Vector3<T>& a, const Vector3<T>& b) {
-  return a.x() * b.x() + a.y() * b.y() + a.z() * b.z();
-}
-
 /// The forces of one patch. @p arm_track from the axle's centre to the contact point [m].
 template <Real T>
 [[nodiscard]] PatchForce<T> patch_force(const Patch<T>& patch, const RailFrame<T>& frame,
