@@ -11,6 +11,8 @@
 ///   g(u) = -n.(o - P) - u n.a + R(u) sqrt(1 - (n.a)^2),
 /// whatever the yaw, and F over an interval is bounded by StripTree.
 
+#include <algorithm>
+#include <array>
 #include <wheelrail/contact/patch.hpp>
 
 namespace wheelrail {
@@ -83,26 +85,43 @@ class StripWalk {
     bool exists = false;
   };
 
-  // The bound of this file's head, over the strips of a node.
+  // A tangent plane of the rail, as the bound of this file's head needs it.
+  struct Plane {
+    T along_axle{};   // n.a
+    T across_axle{};  // sqrt(1 - (n.a)^2)
+    T height{};       // n.(P - o) [m]
+  };
+
+  // g of this file's head, over the strips of a node.
+  [[nodiscard]] T bound_under(const Plane& plane, const StripNode<T>& node) const {
+    return plane.height - node.centre * plane.along_axle +
+           wheel_.radius(node.point) * plane.across_axle +
+           magnitude(T(node.point.slope * plane.across_axle - plane.along_axle)) * node.half_width +
+           node.rise * plane.across_axle;
+  }
+
+  // Whether a node lies above a tangent plane of the rail: above one of the last ones that were
+  // looked at, or else above the one under the node's centre.
   [[nodiscard]] bool cannot_penetrate(const StripNode<T>& node) {
     using std::sqrt;
     if (!rail_.is_convex()) return false;
+    const T limit = options_.penetration_threshold - margin_;
+    for (std::size_t i = 0; i < std::min(planes_seen_, planes_.size()); ++i) {
+      if (bound_under(planes_[i], node) < limit) return true;
+    }
     ++result_.evaluations;
     centre_curvature_ = T(0);
     const LocusPoint<T> locus = locus_point(wheel_, placement_, node.centre, node.point);
     if (!locus.exists) return false;
     const ClosestPoint<T> foot = rail_foot(rail_.profile(), locus.lateral, locus.up);
     centre_curvature_ = foot.curvature;
-    const T along_axle =
-        foot.normal_rail.x() * axle_lateral_ + foot.normal_rail.y() * axle_up_;  // n.a
-    const T across = sqrt(T(T(1) - along_axle * along_axle));
-    const T centre_depth = foot.penetration +
-                           foot.normal_rail.x() * (locus.lateral - placement_.position_rail.y()) +
-                           foot.normal_rail.y() * (locus.up - placement_.position_rail.z());
-    const T bound = centre_depth - node.centre * along_axle + wheel_.radius(node.point) * across +
-                    magnitude(T(node.point.slope * across - along_axle)) * node.half_width +
-                    node.rise * across;
-    return bound < options_.penetration_threshold - margin_;
+    Plane& plane = planes_[planes_seen_++ % planes_.size()];
+    plane.along_axle = foot.normal_rail.x() * axle_lateral_ + foot.normal_rail.y() * axle_up_;
+    plane.across_axle = sqrt(T(T(1) - plane.along_axle * plane.along_axle));
+    plane.height = foot.penetration +
+                   foot.normal_rail.x() * (locus.lateral - placement_.position_rail.y()) +
+                   foot.normal_rail.y() * (locus.up - placement_.position_rail.z());
+    return bound_under(plane, node) < limit;
   }
 
   // Visits a node as one interval if the penetration is concave over it, so that it has one maximum
@@ -225,6 +244,42 @@ class StripWalk {
     }
   }
 
+  // The cubic with the penetrations and slopes of two strips, over the share t of the way from the
+  // left to the right one: where a root or an extremum is looked for first.
+  struct Cubic {
+    T c0, c1, c2, c3;
+
+    Cubic(const Strip& left, const Strip& right, const T& threshold) {
+      const T width = right.wheel_lateral - left.wheel_lateral;
+      const T rise = right.penetration - left.penetration;
+      c0 = left.penetration - threshold;
+      c1 = width * left.slope;
+      c2 = T(3) * rise - width * (T(2) * left.slope + right.slope);
+      c3 = width * (left.slope + right.slope) - T(2) * rise;
+    }
+
+    // Two Newton steps from the share t.
+    [[nodiscard]] T near_root(T t) const {
+      for (int i = 0; i < 2; ++i) {
+        t -= (c0 + t * (c1 + t * (c2 + t * c3))) / (c1 + t * (T(2) * c2 + t * T(3) * c3));
+      }
+      return t;
+    }
+    [[nodiscard]] T near_extremum(T t) const {
+      for (int i = 0; i < 2; ++i) {
+        t -= (c1 + t * (T(2) * c2 + t * T(3) * c3)) / (T(2) * c2 + t * T(6) * c3);
+      }
+      return t;
+    }
+  };
+
+  // `share` of the way from left to right; where it leads out of the interval, `otherwise`.
+  [[nodiscard]] static T between(const Strip& left, const Strip& right, const T& share,
+                                 const T& otherwise) {
+    return left.wheel_lateral + (T(0) < share && share < T(1) ? share : otherwise) *
+                                    (right.wheel_lateral - left.wheel_lateral);
+  }
+
   // Solves for the extremum of the penetration between two strips of one piece, if there is one
   // that can matter: a maximum that may reach the threshold, or a minimum between two that do.
   void visit_extremum(const Strip& left, const Strip& right) {
@@ -234,7 +289,8 @@ class StripWalk {
     if (!is_maximum && !is_minimum) return;
     if (is_maximum && !may_penetrate(left, right)) return;
     if (is_minimum && !(penetrates(left) && penetrates(right))) return;
-    const T width = right.wheel_lateral - left.wheel_lateral;
+    const T secant = left.slope / (left.slope - right.slope);
+    const Cubic cubic(left, right, options_.penetration_threshold);
     bool lost = false;
     Strip before;
     const auto root = bracketed_newton<T>(
@@ -250,15 +306,16 @@ class StripWalk {
           return ValueAndSlope<T>{at.slope, rate};
         },
         left.wheel_lateral, right.wheel_lateral, left.slope, right.slope,
-        T(left.wheel_lateral + width * left.slope / (left.slope - right.slope)),
+        between(left, right, cubic.near_extremum(secant), secant),
         // Where the bodies nearly conform, the slope's rounding outweighs its rate.
-        {.step_tolerance = T(2) * epsilon<T>() * wheel_.nominal_radius(),
-         .residual_tolerance = T(4) * epsilon<T>()});
+        {.step_tolerance = step_tolerance_, .residual_tolerance = T(4) * epsilon<T>()});
     if (root.status != SolveStatus::converged || lost) {
       result_.status = SearchStatus::not_converged;
       return;
     }
-    visit(strip(left.piece, root.position));
+    // The last step changes an extremum by its square: rounding.
+    before.wheel_lateral = root.position;
+    visit(before);
   }
 
   // The next strip in the order of wheel_lateral: opens, deepens or closes a zone.
@@ -287,8 +344,9 @@ class StripWalk {
     last_ = Strip();
   }
 
-  // A parabola with its top at the strip inside, where that is the zone's deepest; otherwise a chord.
-  [[nodiscard]] T boundary_start(const Strip& left, const Strip& right) const {
+  // The share of the way from left to right: a parabola with its top at the strip inside, where that
+  // is the zone's deepest; otherwise a chord.
+  [[nodiscard]] T boundary_share(const Strip& left, const Strip& right) const {
     using std::sqrt;
     const bool left_is_inside = penetrates(left);
     const Strip& inside = left_is_inside ? left : right;
@@ -299,13 +357,14 @@ class StripWalk {
         magnitude(inside.slope) * magnitude(T(right.wheel_lateral - left.wheel_lateral)) <
         depth / T(4);
     const T share = at_top ? T(sqrt(chord)) : chord;
-    return inside.wheel_lateral + share * (outside.wheel_lateral - inside.wheel_lateral);
+    return left_is_inside ? share : T(T(1) - share);
   }
 
   // Where the penetration passes the threshold between two neighbouring strips.
   [[nodiscard]] T boundary(const Strip& left, const Strip& right) {
     if (left.piece != right.piece) return right.wheel_lateral;
     const T& threshold = options_.penetration_threshold;
+    const T share = boundary_share(left, right);
     bool lost = false;
     const auto root = bracketed_newton<T>(
         [&](const T& u) {
@@ -314,7 +373,8 @@ class StripWalk {
           return ValueAndSlope<T>{T(at.penetration - threshold), at.slope};
         },
         left.wheel_lateral, right.wheel_lateral, T(left.penetration - threshold),
-        T(right.penetration - threshold), boundary_start(left, right),
+        T(right.penetration - threshold),
+        between(left, right, Cubic(left, right, threshold).near_root(share), share),
         {.step_tolerance = step_tolerance(), .residual_tolerance = margin_ / T(16)});
     if (root.status != SolveStatus::converged || lost) {
       result_.status = SearchStatus::not_converged;
@@ -346,9 +406,11 @@ class StripWalk {
   const SearchOptions<T>& options_;
   T axle_lateral_;  // of the axle's direction, rail frame
   T axle_up_;
-  T centre_curvature_{};  // of the rail under the centre of the last node [1/m]
-  T margin_;              // rounding of the bound and of the penetration [m]
-  T step_tolerance_{};    // [m]
+  std::array<Plane, 6> planes_;
+  std::size_t planes_seen_ = 0;  // planes_ has the last ones
+  T centre_curvature_{};         // of the rail under the centre of the last node [1/m]
+  T margin_;                     // rounding of the bound and of the penetration [m]
+  T step_tolerance_{};           // [m]
   ContactResult<T> result_;
   int reached_ = -1;  // the last strip of the wheel that was visited
   Strip last_;
