@@ -12,11 +12,11 @@ int main(int argc, char** argv) {
       "Exit code 0; 2 on bad input, 3 when searches or the integration failed.",
       examples::vehicle_options("10"));
   return examples::run(argc, argv, arguments, [](const examples::Arguments& given) {
-    const examples::VehicleData data(examples::vehicle_file(given));
-    const auto vehicle = examples::build_vehicle(data, examples::VehicleKind::bogie);
+    const auto vehicle =
+        examples::build_vehicle(examples::vehicle_data(given), examples::VehicleKind::bogie);
     const wheelrail::TangentTrack track(
         examples::rail_profile(given.choice("--rail", examples::rail_names)),
-        {.gauge = given.positive("--gauge"), .inclination = given.number("--inclination")});
+        examples::track_dimensions(given));
     return run_and_write(given, "bogie_on_tangent_track", vehicle, track,
                          examples::vehicle_case(given));
   });

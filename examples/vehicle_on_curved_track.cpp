@@ -4,15 +4,13 @@
 #include "support/vehicle_main.hpp"
 
 int main(int argc, char** argv) {
-  auto options = examples::vehicle_options("41");
-  const std::vector<examples::Option> layout{
-      {"--approach", "M", "102", "tangent before the curve [m]"},
-      {"--transition", "M", "60", "length of each clothoid, with the cant's ramp [m]"},
-      {"--arc", "M", "462", "length of the arc [m]"},
-      {"--radius", "M", "300", "of the curve, to the left [m]"},
-      {"--cant", "M", "0.12", "of the right rail over the left in the arc [m]"},
-      {"--departure", "M", "140", "tangent behind the curve [m]"}};
-  options.insert(options.end(), layout.begin(), layout.end());
+  const auto options = examples::vehicle_options(
+      "41", {{"--approach", "M", "102", "tangent before the curve [m]"},
+             {"--transition", "M", "60", "length of each clothoid, with the cant's ramp [m]"},
+             {"--arc", "M", "462", "length of the arc [m]"},
+             {"--radius", "M", "300", "of the curve, to the left [m]"},
+             {"--cant", "M", "0.12", "of the right rail over the left in the arc [m]"},
+             {"--departure", "M", "140", "tangent behind the curve [m]"}});
   const examples::Arguments arguments(
       "Runs a trailer vehicle of two bogies and a carbody through a left curve (the paper's third\n"
       "case), started off centre and just above the rails, and prints a summary. With --output "
@@ -22,19 +20,20 @@ int main(int argc, char** argv) {
       "rail: then what was computed is kept.",
       options);
   return examples::run(argc, argv, arguments, [](const examples::Arguments& given) {
-    const examples::VehicleData data(examples::vehicle_file(given));
-    const auto vehicle = examples::build_vehicle(data, examples::VehicleKind::vehicle);
-    const auto track = examples::curved_track(
-        examples::rail_profile(given.choice("--rail", examples::rail_names)),
-        {.approach = given.positive("--approach"),
-         .transition = given.positive("--transition"),
-         .arc = given.positive("--arc"),
-         .radius = given.positive("--radius"),
-         .cant = given.within("--cant", 0, 0.25),
-         .departure = given.positive("--departure")},
-        {.gauge = given.positive("--gauge"), .inclination = given.number("--inclination")});
+    const auto vehicle =
+        examples::build_vehicle(examples::vehicle_data(given), examples::VehicleKind::vehicle);
+    const auto track =
+        examples::curved_track(examples::rail_profile(given.choice("--rail", examples::rail_names)),
+                               {.approach = given.positive("--approach"),
+                                .transition = given.positive("--transition"),
+                                .arc = given.positive("--arc"),
+                                .radius = given.positive("--radius"),
+                                .cant = given.within("--cant", 0, 0.25),
+                                .departure = given.positive("--departure")},
+                               examples::track_dimensions(given));
     auto run = examples::vehicle_case(given);
-    run.start = examples::vehicle_start;
+    run.start = std::max(examples::vehicle_start, examples::overhang(vehicle) + 1);
+    run.report_interval = examples::curve_report_interval;
     examples::require_length(track, vehicle, run);
     return run_and_write(given, "vehicle_on_curved_track", vehicle, track, run);
   });

@@ -3,8 +3,7 @@
 
 #include <cstdio>
 
-#include "support/arguments.hpp"
-#include "support/profiles.hpp"
+#include "support/run_options.hpp"
 #include "support/wheelset_output.hpp"
 
 namespace {
@@ -17,15 +16,11 @@ int simulate(const examples::Arguments& given, const WheelProfile& profile) {
                                      given.positive("--profile-spacing"));
   const wheelrail::TangentTrack track(
       examples::rail_profile(given.choice("--rail", examples::rail_names)),
-      {.gauge = given.positive("--gauge"), .inclination = given.number("--inclination")});
+      examples::track_dimensions(given));
   wheelrail::require_fit(wheelset, track);
-  wheelrail::ContactForceOptions<double> force;
-  force.friction_coefficient = given.number("--friction");
-  force.normal.restitution_force_ratio = given.number("--restitution");
-  const wheelrail::ContactForceModel<double> model(force);
+  const auto model = examples::force_model(given);
   examples::WheelsetCase run;
-  run.speed = given.positive("--speed");
-  run.duration = given.within("--duration", 1e-4, 100);
+  examples::set_run(run, given);
   run.lateral_shift = given.number("--lateral-shift");
   run.yaw = given.within("--yaw", -0.1, 0.1);
   run.mass = given.positive("--mass");
@@ -38,9 +33,6 @@ int simulate(const examples::Arguments& given, const WheelProfile& profile) {
         ", but must be at most twice --roll-inertia, which is " + given.text("--roll-inertia") +
         ": no body has a moment of inertia greater than the sum of its other two");
   }
-  run.integrator.relative_tolerance = run.integrator.absolute_tolerance =
-      given.within("--tolerance", 1e-13, 1e-2);
-  run.integrator.maximum_step = given.positive("--maximum-step");
   const std::string method = given.choice("--method", examples::method_names);
   std::filesystem::path output;
   const auto history = examples::with_search(method, profile, [&](const auto& search) {
@@ -49,9 +41,7 @@ int simulate(const examples::Arguments& given, const WheelProfile& profile) {
     if (given.given("--output")) output = examples::prepare_directory(given.text("--output"));
     return run_wheelset(wheelset, track, model, search, run);
   });
-  const std::string summary = "wheel: " + given.text("--wheel") +
-                              "\nrail: " + given.text("--rail") + "\nmethod: " + method + "\n" +
-                              examples::summary(history);
+  const std::string summary = examples::run_summary(given) + examples::summary(history);
   if (!output.empty()) {
     examples::write_file(output / "time_series.csv", time_series_csv(history, run));
     examples::write_file(output / "patches.csv", patches_csv(history));
@@ -102,27 +92,17 @@ int main(int argc, char** argv) {
       "patches.csv (every 1 ms; SI units, track frame: x forward, y left, z up) and summary.txt.\n"
       "real_time_factor is simulated over elapsed time.\n"
       "Exit code 0; 2 on bad input, 3 when searches or the integration failed.",
-      {{"--wheel", "NAME", "s1002", "wheel profile: s1002 or s1002-convex"},
-       {"--rail", "NAME", "uic50", "rail profile: uic50 (an assumed 50E4 head) or 60e1"},
-       {"--method", "NAME", "strip", "contact search: strip or minimum-distance"},
-       {"--speed", "M/S", "10", "forward speed at the start [m/s]"},
-       {"--duration", "S", "10", "of the run [s], 0.0001 to 100"},
-       {"--lateral-shift", "M", "0.002",
-        "at the start, to the left [m]; no flange may stand on a rail head"},
-       {"--yaw", "RAD", "0", "at the start, to the left [rad], -0.1 to 0.1"},
-       {"--output", "DIR", "", "where the tables go; made if need be; nothing is written without"},
-       {"--mass", "KG", "1000", "of the wheelset [kg]"},
-       {"--roll-inertia", "KG_M2", "600", "about the longitudinal and vertical axis [kg m2]"},
-       {"--spin-inertia", "KG_M2", "80", "about the axle [kg m2], at most twice --roll-inertia"},
-       {"--friction", "MU", "0.25", "friction coefficient [-]"},
-       {"--restitution", "CE", "0.75", "ratio of opening to closing normal force, c_e [-]"},
-       {"--nominal-radius", "M", "0.43", "wheel radius at the tread circle [m]"},
-       {"--profile-spacing", "M", "1.5", "distance of the wheels' tread circles [m]"},
-       {"--gauge", "M", "1.435", "track gauge, 14 mm below the rails' highest points [m]"},
-       {"--inclination", "SLOPE", "0.05", "rail inclination towards the track's middle [-]"},
-       {"--tolerance", "TOL", "1e-5",
-        "relative and absolute tolerance of the integrator [-], 1e-13 to 0.01"},
-       {"--maximum-step", "S", "0.001", "longest step of the integrator [s]"}});
+      examples::run_options(
+          "10", "10",
+          {{"--lateral-shift", "M", "0.002",
+            "at the start, to the left [m]; no flange may stand on a rail head"},
+           {"--yaw", "RAD", "0", "at the start, to the left [rad], -0.1 to 0.1"},
+           {"--mass", "KG", "1000", "of the wheelset [kg]"},
+           {"--roll-inertia", "KG_M2", "600", "about the longitudinal and vertical axis [kg m2]"},
+           {"--spin-inertia", "KG_M2", "80",
+            "about the axle [kg m2], at most twice --roll-inertia"},
+           {"--nominal-radius", "M", "0.43", "wheel radius at the tread circle [m]"},
+           {"--profile-spacing", "M", "1.5", "distance of the wheels' tread circles [m]"}}));
   return examples::run(argc, argv, arguments, [](const examples::Arguments& given) {
     return examples::with_wheel_profile(
         given.choice("--wheel", examples::wheel_names),

@@ -90,6 +90,16 @@ class Arguments {
     return value;
   }
 
+  [[nodiscard]] int whole(const std::string& name, int lower, int upper) const {
+    const double value = number(name);
+    if (value != std::floor(value) || value < lower || upper < value) {
+      throw std::invalid_argument(name + " is " + text(name) +
+                                  ", but must be a whole number from " + std::to_string(lower) +
+                                  " to " + std::to_string(upper));
+    }
+    return static_cast<int>(value);
+  }
+
   // One of the given words.
   [[nodiscard]] std::string choice(const std::string& name,
                                    const std::vector<std::string>& words) const {

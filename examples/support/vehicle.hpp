@@ -1,8 +1,14 @@
 #pragma once
 // A bogie of five bodies and a vehicle of eleven (§6.2, §6.3 of the paper): wheelsets, axlebox bodies
-// on revolute joints, frames on the primary and a carbody on the secondary suspension.
+// on revolute joints, frames on the primary and a carbody on the secondary suspension. Where the
+// data have them: an anti-roll bar, the bending of the secondary springs, a lateral bump stop and a
+// traction rod for each bogie, and springs in series with the dampers.
 
+#include <algorithm>
+#include <array>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 #include <wheelrail/dynamics/multibody_system.hpp>
 
@@ -19,6 +25,7 @@ struct Vehicle {
   std::vector<wheelrail::Vector3<double>> positions;  // of their centres of mass [m]
   std::vector<int> wheelsets;                         // their indices, from the leading one
   double wheel_radius = 0;                            // [m]
+  double profile_spacing = 1.5;                       // between the wheels' tread circles [m]
 };
 
 namespace detail {
@@ -31,6 +38,10 @@ class VehicleBuilder {
 
   [[nodiscard]] Vehicle build(VehicleKind kind) {
     vehicle_.wheel_radius = data_.positive("wheel radius");
+    if (data_.has("wheel flange back to back")) {
+      vehicle_.profile_spacing = data_.positive("wheel flange back to back") +
+                                 2 * data_.positive("tread circle to flange back");
+    }
     if (kind == VehicleKind::bogie) {
       add_bogie("", 0, 0);
       return std::move(vehicle_);
@@ -51,16 +62,46 @@ class VehicleBuilder {
 
   int add_body(const std::string& name, const std::string& mass, const std::string& inertia,
                const Vector& position) {
-    vehicle_.model.bodies.emplace_back(
-        data_.positive(mass),
-        Vector(data_.positive(inertia + " Ixx"), data_.positive(inertia + " Iyy"),
-               data_.positive(inertia + " Izz")));
+    return add_body(name, data_.positive(mass),
+                    Vector(data_.positive(inertia + " Ixx"), data_.positive(inertia + " Iyy"),
+                           data_.positive(inertia + " Izz")),
+                    position);
+  }
+
+  int add_body(const std::string& name, double mass, const Vector& moments,
+               const Vector& position) {
+    vehicle_.model.bodies.emplace_back(mass, moments);
     vehicle_.names.push_back(name);
     vehicle_.positions.push_back(position);
     return static_cast<int>(vehicle_.names.size()) - 1;
   }
 
-  // A spring-damper with the coefficients `name` kx .. cz and a vertical preload on b.
+  // A wheelset and its axlebox body, of masses and inertias of their own or, where the data give the
+  // boxes' share of the wheelset, with the sums that the data have for the wheelset. All of its Iyy
+  // spins; that of the boxes comes on top, but the suspension has no moment to turn them by.
+  std::array<int, 2> add_wheelset(const std::string& name, const Vector& centre) {
+    const std::string share_name = "axlebox body share of the wheelset";
+    if (!data_.has(share_name)) {
+      const int wheelset = add_body(name + " wheelset", "wheelset mass", "wheelset", centre);
+      return {wheelset,
+              add_body(name + " axlebox", "axlebox body mass (both boxes of one wheelset)",
+                       "axlebox body", centre)};
+    }
+    const double share = data_.positive(share_name);
+    if (!(share < 1)) {
+      throw std::invalid_argument("'" + share_name + "' is " + std::to_string(share) +
+                                  ", but must be < 1");
+    }
+    const double mass = data_.positive("wheelset mass");
+    const Vector moments(data_.positive("wheelset Ixx"), data_.positive("wheelset Iyy"),
+                         data_.positive("wheelset Izz"));
+    const Vector rest((1 - share) * moments.x(), moments.y(), (1 - share) * moments.z());
+    const int wheelset = add_body(name + " wheelset", (1 - share) * mass, rest, centre);
+    return {wheelset, add_body(name + " axlebox", share * mass, share * moments, centre)};
+  }
+
+  // A spring-damper with the coefficients `name` kx .. cz and a vertical preload on b. Springs in
+  // series are in series with the dampers alone, beside the suspension's springs.
   void add_suspension(const std::string& name, const std::string& per, int a, const Vector& point_a,
                       int b, const Vector& point_b, double preload) {
     wheelrail::SpringDamper<double> element;
@@ -78,6 +119,10 @@ class VehicleBuilder {
       };
       element.spring[i] = coefficient("k");
       element.damper[i] = coefficient("c");
+      const std::string series = name + " damper series k" + axes[i] + " " + per;
+      if (data_.has(series)) {
+        element.series_stiffness_a(static_cast<Eigen::Index>(i)) = data_.positive(series);
+      }
     }
     vehicle_.model.spring_dampers.push_back(element);
   }
@@ -93,9 +138,7 @@ class VehicleBuilder {
     for (const double offset : {half_base, -half_base}) {
       const std::string which = name + (offset > 0 ? "leading" : "trailing");
       const Vector centre(x + offset, 0, radius);
-      const int wheelset = add_body(which + " wheelset", "wheelset mass", "wheelset", centre);
-      const int box = add_body(which + " axlebox", "axlebox body mass (both boxes of one wheelset)",
-                               "axlebox body", centre);
+      const auto [wheelset, box] = add_wheelset(which, centre);
       vehicle_.wheelsets.push_back(wheelset);
       boxes.push_back(box);
       vehicle_.model.joints.emplace_back(wheelset, Vector::Zero(), Vector::UnitY(), box,
@@ -125,6 +168,38 @@ class VehicleBuilder {
                      Vector(0, side * half_width, height - at(frame).z()), carbody,
                      Vector(x, side * half_width, height - at(carbody).z()), load);
     }
+    for (const char* name :
+         {"anti-roll bar stiffness per bogie", "secondary bending stiffness per side"}) {
+      if (!data_.has(name)) continue;
+      const double sides = std::string_view(name).ends_with("side") ? 2 : 1;
+      vehicle_.model.torsion_springs.push_back({frame, carbody, sides * data_.positive(name)});
+    }
+    using wheelrail::Characteristic;
+    const std::string force = "lateral bump stop force", rod = "traction rod";
+    if (const auto table = data_.table(force); !table.empty()) {
+      auto stop = between(frame, carbody, x, data_.positive("lateral bump stop height above rail"));
+      stop.spring[1] = Characteristic<double>::odd_table(table, force);
+      vehicle_.model.spring_dampers.push_back(stop);
+    }
+    if (data_.has(rod + " stiffness")) {
+      auto element = between(frame, carbody, x, data_.positive(rod + " height above rail"));
+      element.spring[0] =
+          Characteristic<double>::linear(data_[rod + " stiffness"], rod + " stiffness");
+      element.damper[0] = Characteristic<double>::linear(data_[rod + " damping"], rod + " damping");
+      vehicle_.model.spring_dampers.push_back(element);
+    }
+  }
+
+  // An element without springs yet, in the middle plane at that height above the rails.
+  [[nodiscard]] wheelrail::SpringDamper<double> between(int a, int b, double x,
+                                                        double height) const {
+    wheelrail::SpringDamper<double> element;
+    const Vector place(x, 0, height);
+    element.a = a;
+    element.point_a = place - vehicle_.positions[static_cast<std::size_t>(a)];
+    element.b = b;
+    element.point_b = place - vehicle_.positions[static_cast<std::size_t>(b)];
+    return element;
   }
 
   const VehicleData& data_;
@@ -136,6 +211,13 @@ class VehicleBuilder {
 // Throws std::invalid_argument where the data lack a quantity or have one out of its range.
 [[nodiscard]] inline Vehicle build_vehicle(const VehicleData& data, VehicleKind kind) {
   return detail::VehicleBuilder(data).build(kind);
+}
+
+// How far the rearmost body's centre of mass is behind the vehicle's middle [m].
+[[nodiscard]] inline double overhang(const Vehicle& vehicle) {
+  double rear = 0;
+  for (const auto& position : vehicle.positions) rear = std::max(rear, -position.x());
+  return rear;
 }
 
 }  // namespace examples

@@ -1,5 +1,6 @@
 #pragma once
-// A vehicle's quantities from a CSV file: `quantity,value,unit,source`, `#` begins a comment.
+// A vehicle's quantities from a CSV file: `quantity,value,unit,source`, `#` begins a comment. A
+// source that begins with "unconfirmed" marks a value that is left out unless it is asked for.
 
 #include <cmath>
 #include <cstdlib>
@@ -7,13 +8,19 @@
 #include <map>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <vector>
+#include <wheelrail/dynamics/characteristic.hpp>
 
 namespace examples {
+
+enum class Unconfirmed { left_out, used };
 
 class VehicleData {
  public:
   // Throws std::invalid_argument with file and line.
-  explicit VehicleData(const std::string& path) : path_(path) {
+  explicit VehicleData(const std::string& path, Unconfirmed unconfirmed = Unconfirmed::left_out)
+      : path_(path) {
     std::ifstream file(path);
     if (!file) throw std::invalid_argument("vehicle: cannot open '" + path + "'");
     std::string line;
@@ -41,7 +48,13 @@ class VehicleData {
       if (text.empty() || *end != '\0' || !std::isfinite(value)) {
         fail("the value of '" + name + "' is '" + text + "', but must be a finite number");
       }
-      if (!values_.emplace(name, value).second) fail("'" + name + "' is given twice");
+      if (values_.contains(name) || left_out_.contains(name)) fail("'" + name + "' is given twice");
+      const auto third = line.find(',', second + 1);
+      const bool is_unconfirmed =
+          third != std::string::npos &&
+          std::string_view(line).substr(third + 1).starts_with("unconfirmed");
+      const bool is_used = !is_unconfirmed || unconfirmed == Unconfirmed::used;
+      (is_used ? values_ : left_out_).emplace(name, value);
     }
     if (!has_header) throw std::invalid_argument(path + ": the file has no header");
   }
@@ -49,10 +62,13 @@ class VehicleData {
   [[nodiscard]] double operator[](const std::string& quantity) const {
     const auto found = values_.find(quantity);
     if (found == values_.end()) {
-      throw std::invalid_argument(path_ + ": the vehicle lacks the quantity '" + quantity + "'");
+      throw std::invalid_argument(path_ + ": the vehicle lacks the quantity '" + quantity + "'" +
+                                  (left_out_.contains(quantity) ? ", which is unconfirmed" : ""));
     }
     return found->second;
   }
+
+  [[nodiscard]] bool has(const std::string& quantity) const { return values_.contains(quantity); }
 
   // Masses, inertias, lengths: greater than zero.
   [[nodiscard]] double positive(const std::string& quantity) const {
@@ -64,9 +80,37 @@ class VehicleData {
     return value;
   }
 
+  // The rows "<name> at <x> mm" of a table, by x [m].
+  [[nodiscard]] std::vector<wheelrail::CharacteristicPoint<double>> table(
+      const std::string& name) const {
+    const std::string begin = name + " at ";
+    std::map<double, double> rows;
+    for (auto row = values_.lower_bound(begin);
+         row != values_.end() && row->first.starts_with(begin); ++row) {
+      const std::string text = row->first.substr(begin.size());
+      char* end = nullptr;
+      const double x = std::strtod(text.c_str(), &end);
+      if (end == text.c_str() || std::string(end) != " mm" ||
+          !rows.emplace(x, row->second).second) {
+        throw std::invalid_argument(path_ + ": '" + row->first +
+                                    "' must end with its own number and ' mm'");
+      }
+    }
+    std::vector<wheelrail::CharacteristicPoint<double>> points;
+    for (const auto& [x, force] : rows) points.push_back({x / 1000, force});
+    return points;
+  }
+
+  // The quantities that are unconfirmed and left out, in alphabetical order.
+  [[nodiscard]] std::vector<std::string> left_out() const {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : left_out_) names.push_back(name);
+    return names;
+  }
+
  private:
   std::string path_;
-  std::map<std::string, double> values_;
+  std::map<std::string, double> values_, left_out_;
 };
 
 }  // namespace examples

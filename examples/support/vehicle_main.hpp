@@ -5,44 +5,34 @@
 #include <string>
 #include <vector>
 
-#include "arguments.hpp"
-#include "profiles.hpp"
+#include "run_options.hpp"
 #include "vehicle_output.hpp"
 
 namespace examples {
 
-[[nodiscard]] inline std::vector<Option> vehicle_options(const std::string& duration) {
-  return {
-      {"--wheel", "NAME", "s1002", "wheel profile: s1002 or s1002-convex"},
-      {"--rail", "NAME", "uic50", "rail profile: uic50 (an assumed 50E4 head) or 60e1"},
-      {"--method", "NAME", "strip", "contact search: strip or minimum-distance"},
+// With `layout`, the options of a track.
+[[nodiscard]] inline std::vector<Option> vehicle_options(const std::string& duration,
+                                                         const std::vector<Option>& layout = {}) {
+  std::vector<Option> own{
       {"--vehicle", "FILE", "", "CSV of quantity,value,unit (default: the light metro trailer)"},
-      {"--speed", "M/S", "18.3", "forward speed at the start [m/s]"},
-      {"--duration", "S", duration, "of the run [s], 0.0001 to 100"},
-      {"--lateral-shift", "M", "0.002", "of all bodies at the start, to the left [m]"},
-      {"--output", "DIR", "", "where the tables go; made if need be; nothing is written without"},
-      {"--friction", "MU", "0.25", "friction coefficient [-]"},
-      {"--restitution", "CE", "0.75", "ratio of opening to closing normal force, c_e [-]"},
-      {"--gauge", "M", "1.435", "track gauge, 14 mm below the rails' highest points [m]"},
-      {"--inclination", "SLOPE", "0.05", "rail inclination towards the track's middle [-]"},
-      {"--tolerance", "TOL", "1e-5",
-       "relative and absolute tolerance of the integrator [-], 1e-13 to 0.01"},
-      {"--maximum-step", "S", "0.001", "longest step of the integrator [s]"}};
+      {"--unconfirmed", "NAME", "no", "yes: also with values that the data mark as unconfirmed"},
+      {"--lateral-shift", "M", "0.002", "of all bodies at the start, to the left [m]"}};
+  own.insert(own.end(), layout.begin(), layout.end());
+  return run_options("18.3", duration, own);
 }
 
-[[nodiscard]] inline std::string vehicle_file(const Arguments& given) {
-  return given.given("--vehicle") ? given.text("--vehicle")
-                                  : std::string(WHEELRAIL_VEHICLES_DIR) + "/metro_trailer.csv";
+[[nodiscard]] inline VehicleData vehicle_data(const Arguments& given) {
+  const std::string file = given.given("--vehicle")
+                               ? given.text("--vehicle")
+                               : std::string(WHEELRAIL_VEHICLES_DIR) + "/metro_trailer.csv";
+  const bool all = given.choice("--unconfirmed", {"no", "yes"}) == "yes";
+  return VehicleData(file, all ? Unconfirmed::used : Unconfirmed::left_out);
 }
 
 [[nodiscard]] inline VehicleCase vehicle_case(const Arguments& given) {
   VehicleCase run;
-  run.speed = given.positive("--speed");
-  run.duration = given.within("--duration", 1e-4, 100);
+  set_run(run, given);
   run.lateral_shift = given.within("--lateral-shift", -0.006, 0.006);
-  run.integrator.relative_tolerance = run.integrator.absolute_tolerance =
-      given.within("--tolerance", 1e-13, 1e-2);
-  run.integrator.maximum_step = given.positive("--maximum-step");
   return run;
 }
 
@@ -50,21 +40,17 @@ namespace examples {
 template <class Track>
 [[nodiscard]] int run_and_write(const Arguments& given, const char* program, const Vehicle& vehicle,
                                 const Track& track, const VehicleCase& run) {
-  wheelrail::ContactForceOptions<double> force;
-  force.friction_coefficient = given.number("--friction");
-  force.normal.restitution_force_ratio = given.number("--restitution");
-  const wheelrail::ContactForceModel<double> model(force);
+  const auto model = force_model(given);
   const std::string method = given.choice("--method", method_names);
   return with_wheel_profile(given.choice("--wheel", wheel_names), [&](const auto& profile) {
-    const wheelrail::Wheelset wheelset(profile, vehicle.wheel_radius, 1.5);
+    const wheelrail::Wheelset wheelset(profile, vehicle.wheel_radius, vehicle.profile_spacing);
     require_fit(wheelset, track);
     std::filesystem::path output;
     if (given.given("--output")) output = prepare_directory(given.text("--output"));
     const VehicleHistory history = with_search(method, profile, [&](const auto& search) {
       return run_vehicle(vehicle, wheelset, track, model, search, run);
     });
-    const std::string text = "wheel: " + given.text("--wheel") + "\nrail: " + given.text("--rail") +
-                             "\nmethod: " + method + "\n" + summary(history);
+    const std::string text = run_summary(given) + summary(history);
     if (!output.empty()) {
       write_file(output / "time_series.csv", time_series_csv(history, vehicle));
       write_file(output / "patches.csv", patches_csv(history));
@@ -76,6 +62,9 @@ template <class Track>
     } else if (history.status != wheelrail::IntegrationStatus::finished) {
       std::fprintf(stderr, "%s: the run stopped at %.6g s: %s\n", program, history.end_time,
                    name_of(history.status));
+      if (history.failed_search) {
+        std::fprintf(stderr, "%s: %s\n", program, history.failed_search->c_str());
+      }
     }
     if (history.failures > 0) {
       std::fprintf(stderr, "%s: %ld of %ld contact searches failed\n", program, history.failures,

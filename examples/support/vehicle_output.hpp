@@ -91,9 +91,15 @@ struct CurveContact {
   return contact;
 }
 
+// "5.19 to 36.44", or "none".
+[[nodiscard]] inline std::string flange_contact_text(const CurveContact& contact) {
+  return std::isnan(contact.begin) ? "none" : format("%.4g to %.4g", contact.begin, contact.end);
+}
+
 [[nodiscard]] inline std::string summary(const VehicleHistory& history) {
   std::string text = format("status: %s\n", name_of(history.status));
   if (history.derailment) text += "derailment: " + *history.derailment + "\n";
+  if (history.failed_search) text += "failed_search: " + *history.failed_search + "\n";
   double greatest = 0;
   for (const auto& r : history.records) {
     greatest = std::max(greatest, std::abs(r.wheelsets[0].lateral_shift));
@@ -101,7 +107,7 @@ struct CurveContact {
   const CurveContact contact = curve_contact(history);
   text += format("simulated_s: %.9g\n", history.end_time);
   text += format("greatest_lateral_shift_m: %.6g\n", greatest);
-  text += format("flange_contact_s: %.4g to %.4g\n", contact.begin, contact.end);
+  text += "flange_contact_s: " + flange_contact_text(contact) + "\n";
   text += format("flange_patches_share: 1: %.4f, 2: %.4f, 3: %.4f\n", contact.share[1],
                  contact.share[2], contact.share[3]);
   text += format("constraint_violation: %.3g\n", history.constraint_violation);

@@ -1,18 +1,25 @@
 #pragma once
 // A bogie or a vehicle running on a track: the equations of motion, the run and what is recorded.
 
+#include <algorithm>
 #include <array>
-#include <chrono>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
+#include <wheelrail/dynamics/balance_preloads.hpp>
 #include <wheelrail/dynamics/multibody_system.hpp>
+#include <wheelrail/dynamics/static_equilibrium.hpp>
 #include <wheelrail/numerics/integrate.hpp>
 #include <wheelrail/wheelrail.hpp>
 
+#include "output.hpp"
+#include "parallel.hpp"
 #include "vehicle.hpp"
+#include "wheelset_run.hpp"  // greatest_flange_contact
 
 namespace examples {
 
@@ -55,27 +62,94 @@ struct WheelsetTrace {
 
 struct VehicleRecord {
   double time = 0;
-  double arc_length = 0;                    // of the leading wheelset [m]
-  double carbody_lateral_acceleration = 0;  // of the last body, in its own axes [m/s2]
+  double arc_length = 0;  // of the leading wheelset [m]
   std::array<WheelsetTrace, 4> wheelsets;
 };
 
 struct VehicleHistory {
-  std::vector<VehicleRecord> records;
+  std::vector<VehicleRecord> records;  // up to the end, however the run ended
   wheelrail::IntegrationStatus status = wheelrail::IntegrationStatus::not_finite;
   double end_time = 0;
   int steps = 0, rejected_steps = 0;
   long searches = 0, evaluations = 0, failures = 0;
-  double constraint_violation = 0;        // greatest |Phi| over the run [m, -]
-  double constraint_violation_rate = 0;   // greatest |dPhi/dt| [m/s, 1/s]
-  double seconds = 0;                     // of the integration
-  std::optional<std::string> derailment;  // which wheel left its rail, when and where
+  double constraint_violation = 0;           // greatest |Phi| over the run [m, -]
+  double constraint_violation_rate = 0;      // greatest |dPhi/dt| [m/s, 1/s]
+  double seconds = 0;                        // processor time of the integration, records included
+  std::optional<std::string> derailment;     // which wheel left its rail, when, where and how
+  std::optional<std::string> failed_search;  // the last one of a run that failed without derailing
 };
+
+// A vehicle that stands on its rails.
+struct StandingVehicle {
+  VehicleState state;
+  wheelrail::SolveStatus status = wheelrail::SolveStatus::not_finite;
+  double residual = 0;                                    // greatest |acceleration| [m/s2, rad/s2]
+  std::array<std::array<double, 2>, 4> wheel_loads = {};  // of each wheelset, left and right [N]
+};
+
+// The wheelset that carries each body by a joint, or is it; ground_body for the sprung bodies.
+[[nodiscard]] inline std::vector<int> wheelset_of_bodies(const Vehicle& vehicle) {
+  std::vector<int> carrier(vehicle.model.bodies.size(), wheelrail::ground_body);
+  const auto at = [&](int body) -> int& { return carrier[static_cast<std::size_t>(body)]; };
+  for (const int wheelset : vehicle.wheelsets) at(wheelset) = wheelset;
+  for (const auto& joint : vehicle.model.joints) {
+    const auto [a, b] = joint.bodies();
+    for (const int wheelset : vehicle.wheelsets) {
+      if (a == wheelset || b == wheelset) at(a == wheelset ? b : a) = wheelset;
+    }
+  }
+  return carrier;
+}
+
+// All six displacements of the bodies on springs.
+[[nodiscard]] inline std::vector<wheelrail::BodyDisplacement> sprung_displacements(
+    const Vehicle& vehicle) {
+  using enum wheelrail::Displacement;
+  std::vector<wheelrail::BodyDisplacement> all;
+  const std::vector<int> carrier = wheelset_of_bodies(vehicle);
+  for (std::size_t body = 0; body < carrier.size(); ++body) {
+    if (carrier[body] != wheelrail::ground_body) continue;
+    for (const auto direction : {x, y, z, roll, pitch, yaw}) {
+      all.push_back({static_cast<int>(body), direction});
+    }
+  }
+  return all;
+}
+
+// The vehicle's model with the vertical preloads that hold all bodies on springs where they stand on
+// level track; of all such preloads those nearest to the given ones.
+// Throws std::invalid_argument where no preloads do.
+[[nodiscard]] inline wheelrail::MultibodyModel<double> balanced_model(const Vehicle& vehicle) {
+  const wheelrail::MultibodySystem<double> system(vehicle.model);
+  VehicleState y = VehicleState::Zero(system.state_size());
+  for (std::size_t body = 0; body < vehicle.positions.size(); ++body) {
+    wheelrail::RigidBodyState<double> state;
+    state.position_world = vehicle.positions[body];
+    y.segment<13>(wheelrail::RigidBodyLayout::offset(static_cast<Eigen::Index>(body))) =
+        pack(state);
+  }
+  std::vector<wheelrail::PreloadComponent> preloads;
+  for (std::size_t i = 0; i < vehicle.model.spring_dampers.size(); ++i) {
+    if (vehicle.model.spring_dampers[i].spring[2].slope(0) > 0) preloads.push_back({i});
+  }
+  const std::vector<wheelrail::Wrench<double>> none(system.body_count());
+  auto balance =
+      wheelrail::balance_preloads<double>(system, y, preloads, sprung_displacements(vehicle), none);
+  if (balance.status != wheelrail::SolveStatus::converged) {
+    throw std::invalid_argument(
+        format("the vehicle's springs cannot hold its bodies in balance: with the best preloads an "
+               "acceleration of %.3g m/s2 or rad/s2 is left",
+               balance.residual));
+  }
+  return std::move(balance.model);
+}
 
 // The bodies on a track; contact enters as external wrenches on the wheelsets. World and track frame
 // are the same. The rails are looked for where they were found at the time before.
 template <class Wheelset, class Track, class Search>
 class VehicleOnTrack {
+  using Side = wheelrail::Side;
+
  public:
   using System = wheelrail::MultibodySystem<double>;
 
@@ -86,8 +160,17 @@ class VehicleOnTrack {
         track_(track),
         model_(model),
         search_(search),
-        system_(vehicle.model),
-        arc_lengths_(vehicle.wheelsets.size(), 0.0) {}
+        system_(balanced_model(vehicle)),
+        arc_lengths_(vehicle.wheelsets.size(), 0.0) {
+    for (const Side side : wheelrail::sides) {
+      const auto& profile = wheelset.wheel(side).profile();
+      for (int i = 0; i <= 256; ++i) {
+        const double lateral = profile.lower() + i * (profile.upper() - profile.lower()) / 256;
+        flange_heights_[index_of(side)] =
+            std::max(flange_heights_[index_of(side)], profile.evaluate(lateral).value);
+      }
+    }
+  }
 
   [[nodiscard]] const System& system() const { return system_; }
 
@@ -104,58 +187,137 @@ class VehicleOnTrack {
     return found;
   }
 
-  [[nodiscard]] VehicleState operator()(double, const VehicleState& y) {
+  // NaN where a search fails: the integrator then tries a shorter step, and stops if that does not
+  // help.
+  [[nodiscard]] VehicleState operator()(double time, const VehicleState& y) {
     std::array<wheelrail::Wrench<double>, 16> wrenches{};
+    bool has_failed = false;
     for (std::size_t i = 0; i < vehicle_.wheelsets.size(); ++i) {
       const auto contact = forces(y, i);
       searches_ += 2;
-      for (const auto& wheel : contact.wheels) {
+      for (const Side side : wheelrail::sides) {
+        const auto& wheel = contact.wheel(side);
         evaluations_ += wheel.evaluations;
-        if (wheel.status != wheelrail::SearchStatus::complete) ++failures_;
+        if (wheel.status == wheelrail::SearchStatus::complete) continue;
+        ++failures_;
+        if (!has_failed) {
+          failed_search_ = "the contact search of " + wheel_name(i, side) + " failed (" +
+                           name_of(wheel.status) + ") " + place(time, i);
+        }
+        has_failed = true;
       }
       wrenches[static_cast<std::size_t>(vehicle_.wheelsets[i])] = {contact.force_track,
                                                                    contact.moment_track};
     }
-    return system_.rate(
-        y, std::span<const wheelrail::Wrench<double>>(wrenches.data(), system_.body_count()));
+    if (has_failed) {
+      return VehicleState::Constant(y.size(), std::numeric_limits<double>::quiet_NaN());
+    }
+    return system_.rate(y, wrench_span(wrenches));
   }
 
-  // All bodies moved sideways, rolling straight ahead; the wheels just above the rails.
-  [[nodiscard]] VehicleState start(const VehicleCase& run) const {
-    VehicleState y = VehicleState::Zero(system_.state_size());
-    double lift = 0, roll = 0;
-    for (std::size_t body = 0; body < vehicle_.positions.size(); ++body) {
-      const auto& position = vehicle_.positions[body];
-      const bool is_wheelset = std::find(vehicle_.wheelsets.begin(), vehicle_.wheelsets.end(),
-                                         static_cast<int>(body)) != vehicle_.wheelsets.end();
-      if (body == 0) {
-        const auto down = touching_position(wheelset_, track_, run.lateral_shift, 0.0,
-                                            {.gap = run.starting_gap}, position.x() + run.start);
-        if (down.status != wheelrail::SolveStatus::converged) {
-          throw std::invalid_argument("the wheelsets cannot be set down on the rails");
-        }
-        lift = down.height - position.z();
-        roll = down.roll;
+  // All bodies moved sideways, rolling straight ahead; the wheels just above the rails, the bodies on
+  // springs in balance over them.
+  // Throws std::invalid_argument where the wheelsets cannot be set down or nothing balances.
+  [[nodiscard]] VehicleState start(const VehicleCase& run) {
+    const std::vector<int> carrier = wheelset_of_bodies(vehicle_);
+    std::vector<wheelrail::RigidBodyState<double>> states(carrier.size());
+    double lift = 0;
+    for (std::size_t i = 0; i < vehicle_.wheelsets.size(); ++i) {
+      const auto wheelset = static_cast<std::size_t>(vehicle_.wheelsets[i]);
+      const auto& nominal = vehicle_.positions[wheelset];
+      const auto down = set_down(run, nominal.x() + run.start);
+      arc_lengths_[i] = nominal.x() + run.start;
+      lift += (down.height - nominal.z()) / static_cast<double>(vehicle_.wheelsets.size());
+      const auto orientation =
+          wheelrail::euler_parameters_from_axis_angle<double>({1, 0, 0}, down.roll);
+      const auto axes = wheelrail::rotation_matrix(orientation);
+      for (std::size_t body = 0; body < carrier.size(); ++body) {
+        if (carrier[body] != vehicle_.wheelsets[i]) continue;
+        states[body].orientation = orientation;
+        states[body].position_world =
+            down.position.position_track + axes * (vehicle_.positions[body] - nominal);
       }
-      wheelrail::RigidBodyState<double> state;
-      state.position_world = {position.x() + run.start, run.lateral_shift, position.z() + lift};
-      if (is_wheelset) {
-        state.orientation = wheelrail::euler_parameters_from_axis_angle<double>({1, 0, 0}, roll);
-        state.angular_velocity_body = {0, run.speed / vehicle_.wheel_radius, 0};
-      } else if (vehicle_.names[body].ends_with("axlebox")) {
-        state.orientation = wheelrail::euler_parameters_from_axis_angle<double>({1, 0, 0}, roll);
+      states[wheelset].angular_velocity_body = {0, run.speed / vehicle_.wheel_radius, 0};
+    }
+    VehicleState y = VehicleState::Zero(system_.state_size());
+    for (std::size_t body = 0; body < carrier.size(); ++body) {
+      auto& state = states[body];
+      if (carrier[body] == wheelrail::ground_body) {
+        state.position_world = vehicle_.positions[body] +
+                               wheelrail::Vector3<double>(run.start, run.lateral_shift, lift);
       }
       state.velocity_world = {run.speed, 0, 0};
       y.segment<13>(wheelrail::RigidBodyLayout::offset(static_cast<Eigen::Index>(body))) =
           pack(state);
     }
-    return y;
+    const std::array<wheelrail::Wrench<double>, 16> none{};
+    const auto balance =
+        wheelrail::static_equilibrium(system_, y, sprung_displacements(vehicle_),
+                                      [&](const VehicleState&) { return wrench_span(none); });
+    if (balance.status != wheelrail::SolveStatus::converged) {
+      throw std::invalid_argument(
+          format("the bodies on springs find no balance over the wheelsets at the start: an "
+                 "acceleration of %.3g m/s2 or rad/s2 is left",
+                 balance.residual));
+    }
+    return balance.state;
+  }
+
+  // The vehicle at rest where run.start and run.lateral_shift put it. Friction keeps wheels from
+  // sliding and rolling, so that the whole force of each contact is vertical, whatever its normal.
+  // Throws as start does.
+  [[nodiscard]] StandingVehicle standing(VehicleCase run) {
+    run.speed = 0;
+    const VehicleState above = start(run);
+    std::vector<wheelrail::BodyDisplacement> coordinates = sprung_displacements(vehicle_);
+    const std::vector<int> carrier = wheelset_of_bodies(vehicle_);
+    for (std::size_t body = 0; body < carrier.size(); ++body) {
+      using enum wheelrail::Displacement;
+      if (carrier[body] == wheelrail::ground_body) continue;
+      const int index = static_cast<int>(body);
+      for (const auto direction : {z, roll}) coordinates.push_back({index, direction});
+      if (carrier[body] != index) coordinates.push_back({index, pitch});
+    }
+    std::array<wheelrail::Wrench<double>, 16> wrenches{};
+    StandingVehicle result;
+    const auto hold = [&](const VehicleState& y) {
+      for (std::size_t i = 0; i < vehicle_.wheelsets.size(); ++i) {
+        const auto body = static_cast<std::size_t>(vehicle_.wheelsets[i]);
+        const wheelrail::Vector3<double> centre =
+            wheelrail::unpack_rigid_body(y, vehicle_.wheelsets[i]).position_world;
+        const auto contact = forces(y, i);
+        wrenches[body] = {};
+        for (const Side side : wheelrail::sides) {
+          double& load = result.wheel_loads[i][index_of(side)];
+          load = 0;
+          for (const auto& patch : contact.wheel(side).patches) {
+            const wheelrail::Vector3<double> force(0, 0,
+                                                   patch.contact.normal / patch.normal_track.z());
+            const wheelrail::Vector3<double> arm = patch.position_track - centre;
+            wrenches[body] += {force, wheelrail::cross(arm, force)};
+            load += force.z();
+          }
+        }
+      }
+      return wrench_span(wrenches);
+    };
+    const auto rest = wheelrail::static_equilibrium(system_, above, coordinates, hold);
+    static_cast<void>(hold(rest.state));  // its loads
+    result.state = rest.state;
+    result.status = rest.status;
+    result.residual = rest.residual;
+    return result;
   }
 
   // What is recorded, and whether a wheel has left its rail.
-  [[nodiscard]] VehicleRecord record(double time, const VehicleState& y,
-                                     std::optional<std::string>& derailment) {
+  struct Observation {
     VehicleRecord record;
+    std::optional<std::string> derailment;
+  };
+
+  [[nodiscard]] Observation observe(double time, const VehicleState& y) {
+    Observation seen;
+    VehicleRecord& record = seen.record;
     record.time = time;
     for (std::size_t i = 0; i < vehicle_.wheelsets.size(); ++i) {
       const auto state = wheelrail::unpack_rigid_body(y, vehicle_.wheelsets[i]);
@@ -168,6 +330,7 @@ class VehicleOnTrack {
       const wheelrail::Vector3<double> left =
           (frame.origin_track - other.origin_track).normalized();
       const wheelrail::Vector3<double> forward = frame.axes_track.col(0);
+      const wheelrail::Vector3<double> up = wheelrail::cross(forward, left);
       trace.lateral_shift = left.dot(state.position_world - middle);
       const wheelrail::Vector3<double> axle = wheelrail::rotation_matrix(state.orientation).col(1);
       trace.yaw = std::atan2(-axle.dot(forward), axle.dot(left));
@@ -181,37 +344,97 @@ class VehicleOnTrack {
                              p.contact.normal,      p.contact.ellipse.a,  p.contact.ellipse.b};
         }
         kept.force_y = left.dot(wheel.force_track);
-        kept.force_z = wheel.force_track.dot(wheelrail::cross(forward, left));
-        if (std::abs(trace.lateral_shift) > 0.03 || !wheelrail::is_finite(trace.lateral_shift)) {
-          derailment = "the " + vehicle_.names[static_cast<std::size_t>(vehicle_.wheelsets[i])] +
-                       " left the rails at " + std::to_string(time) + " s, " +
-                       std::to_string(arc_lengths_[i]) + " m along the track";
+        kept.force_z = wheel.force_track.dot(up);
+        const wheelrail::Vector3<double> from_rail =
+            wheelset_.wheel_track(side, {state.position_world, axle, arc_lengths_[i]}) -
+            (side == Side::left ? frame : other).origin_track;
+        const double outwards = wheelrail::outboard_sign<double>(side) * from_rail.dot(left);
+        const char* how = way_off(side, wheel.patches, outwards, from_rail.dot(up));
+        if (how != nullptr && !seen.derailment) {
+          seen.derailment = wheel_name(i, side) + " left its rail " + place(time, i) + ": " + how;
         }
       }
     }
-    return record;
+    return seen;
   }
 
+  // A search of the last evaluation that had one fail, with time and place.
+  [[nodiscard]] const std::optional<std::string>& failed_search() const { return failed_search_; }
   [[nodiscard]] long searches() const { return searches_; }
   [[nodiscard]] long evaluations() const { return evaluations_; }
   [[nodiscard]] long failures() const { return failures_; }
 
  private:
-  using Side = wheelrail::Side;
+  using Wrenches = std::array<wheelrail::Wrench<double>, 16>;
+
+  [[nodiscard]] std::span<const wheelrail::Wrench<double>> wrench_span(
+      const Wrenches& wrenches) const {
+    return {wrenches.data(), system_.body_count()};
+  }
+
+  [[nodiscard]] std::string wheel_name(std::size_t wheelset, Side side) const {
+    return "the " + vehicle_.names[static_cast<std::size_t>(vehicle_.wheelsets[wheelset])] + "'s " +
+           name_of(side) + " wheel";
+  }
+
+  [[nodiscard]] std::string place(double time, std::size_t wheelset) const {
+    return format("at %.3f s, %.1f m along the track", time, arc_lengths_[wheelset]);
+  }
+
+  [[nodiscard]] auto set_down(const VehicleCase& run, double x) const {
+    const auto down =
+        touching_position(wheelset_, track_, run.lateral_shift, 0.0, {.gap = run.starting_gap}, x);
+    const auto fail = [&](const std::string& why) {
+      throw std::invalid_argument(
+          format("a wheelset cannot be set down on the rails at x = %g m, "
+                 "%g m from the middle (%s)",
+                 x, run.lateral_shift, why.c_str()));
+    };
+    if (down.status != wheelrail::SolveStatus::converged) fail(name_of(down.status));
+    for (const Side side : wheelrail::sides) {
+      if (stands_on_flange(side, down.patches[index_of(side)])) {
+        fail(std::string("its ") + name_of(side) + " flange would stand on the rail head");
+      }
+    }
+    return down;
+  }
+
+  [[nodiscard]] bool stands_on_flange(Side side, const wheelrail::Patch<double>& patch) const {
+    return patch.rolling_radius - wheelset_.wheel(side).nominal_radius() > greatest_flange_contact;
+  }
+
+  // How a wheel is no longer guided by its rail; nullptr where it is.
+  // outwards, up: of the wheel profile's origin from the rail profile's, in the track plane [m].
+  template <class Patches>
+  [[nodiscard]] const char* way_off(Side side, const Patches& patches, double outwards,
+                                    double up) const {
+    const auto& wheel = wheelset_.wheel(side);
+    for (const auto& p : patches) {
+      if (stands_on_flange(side, p.patch)) return "its flange stands on the rail head";
+    }
+    if (up - wheel.nominal_radius() > flange_heights_[index_of(side)]) {
+      return "it is lifted higher than its flange";
+    }
+    if (outwards + wheel.profile().upper() < 0) return "its tread lies inside the rail head";
+    return nullptr;
+  }
+
   const Vehicle& vehicle_;
   const Wheelset& wheelset_;
   const Track& track_;
   const wheelrail::ContactForceModel<double>& model_;
   const Search& search_;
   System system_;
-  std::vector<double> arc_lengths_;  // where each wheelset's rails were found last [m]
+  std::vector<double> arc_lengths_;         // where each wheelset's rails were found last [m]
+  std::array<double, 2> flange_heights_{};  // above the tread circle [m]
+  std::optional<std::string> failed_search_;
   long searches_ = 0;
   long evaluations_ = 0;
   long failures_ = 0;
 };
 
-// Runs one case; progress(t) is called at every report. Stops at a derailment and keeps what was
-// computed.
+// Runs one case; progress(t) is called at every report. Stops at a derailment, at the first report
+// that sees it, and where searches fail whatever the step; keeps what was computed.
 template <class Wheelset, class Track, class Search>
 [[nodiscard]] VehicleHistory run_vehicle(
     const Vehicle& vehicle, const Wheelset& wheelset, const Track& track,
@@ -221,19 +444,29 @@ template <class Wheelset, class Track, class Search>
   const VehicleState start = motion.start(run);
   VehicleHistory history;
   history.records.reserve(static_cast<std::size_t>(run.duration / run.report_interval) + 2);
-  const auto begin = std::chrono::steady_clock::now();
-  const auto result = wheelrail::integrate<VehicleState>(
-      motion, 0.0, start, run.duration, run.report_interval, run.integrator,
-      [&](double t, const VehicleState& y) {
-        history.records.push_back(motion.record(t, y, history.derailment));
-        const auto violation = motion.system().constraint_violation(y);
-        history.constraint_violation = std::max(history.constraint_violation, violation.residual);
-        history.constraint_violation_rate =
-            std::max(history.constraint_violation_rate, violation.residual_rate);
-        progress(t);
-        return !history.derailment;
-      });
-  history.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const auto keep = [&](double t, const VehicleState& y) {
+    auto seen = motion.observe(t, y);
+    history.records.push_back(seen.record);
+    history.derailment = std::move(seen.derailment);
+    const auto violation = motion.system().constraint_violation(y);
+    history.constraint_violation = std::max(history.constraint_violation, violation.residual);
+    history.constraint_violation_rate =
+        std::max(history.constraint_violation_rate, violation.residual_rate);
+    progress(t);
+    return !history.derailment;
+  };
+  const double begin = thread_seconds();
+  const auto result = wheelrail::integrate<VehicleState>(motion, 0.0, start, run.duration,
+                                                         run.report_interval, run.integrator, keep);
+  const bool has_failed = result.status != wheelrail::IntegrationStatus::finished &&
+                          result.status != wheelrail::IntegrationStatus::stopped_by_observer;
+  if (has_failed) {
+    if (history.records.empty() || history.records.back().time < result.time) {
+      static_cast<void>(keep(result.time, result.state));  // the last instant that was reached
+    }
+    if (!history.derailment) history.failed_search = motion.failed_search();
+  }
+  history.seconds = thread_seconds() - begin;
   history.status = result.status;
   history.end_time = result.time;
   history.steps = result.steps;

@@ -1,0 +1,306 @@
+#pragma once
+// The carbody's modes on its suspension, with wheelsets and axleboxes held: from the equations of
+// motion, and from formulae for them that share nothing with the library.
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <initializer_list>
+#include <stdexcept>
+#include <string>
+#include <vector>
+#include <wheelrail/dynamics/linearize.hpp>
+
+#include "vehicle.hpp"
+
+namespace examples {
+
+enum class CarbodyMode { bounce, pitch, lower_sway, upper_sway, yaw, surge };
+
+inline constexpr std::array<const char*, 6> carbody_mode_names{"bounce",     "pitch", "lower sway",
+                                                               "upper sway", "yaw",   "surge"};
+
+struct ModeValues {
+  double undamped_frequency = 0;  // with all dampers taken out [Hz]
+  double natural_frequency = 0;   // |eigenvalue| / (2 pi) with dampers [Hz]
+  double damping_ratio = 0;       // [-]
+  double rotation_centre = 0;     // above the rail, of an undamped sway; 0 for other modes [m]
+};
+
+// In the order of CarbodyMode.
+using CarbodyModes = std::array<ModeValues, 6>;
+
+namespace detail {
+
+// For each CarbodyMode the mode that it is, by shares of kinetic energy: bounce is where the
+// carbody's z has its greatest share, and so on; the sways are where its y and roll have. The lower
+// one turns about an axis below the centre of mass, the upper one above.
+// @param masses of the coordinates, which begin with the carbody's x, y, z, roll, pitch, yaw.
+[[nodiscard]] inline std::array<const wheelrail::Eigenmode<double>*, 6> identify(
+    const std::vector<wheelrail::Eigenmode<double>>& modes, const Eigen::VectorXd& masses) {
+  using Mode = const wheelrail::Eigenmode<double>*;
+  const auto share = [&](const auto& mode, std::initializer_list<Eigen::Index> coordinates) {
+    const Eigen::VectorXd energy = masses.cwiseProduct(mode.shape.cwiseAbs2());
+    double sum = 0;
+    for (const Eigen::Index i : coordinates) sum += energy(i);
+    return sum / energy.sum();
+  };
+  const auto greatest = [&](std::initializer_list<Eigen::Index> coordinates, const auto& counts) {
+    Mode best = nullptr;
+    for (const auto& mode : modes) {
+      const bool is_better =
+          best == nullptr || share(*best, coordinates) < share(mode, coordinates);
+      if (counts(mode) && is_better) best = &mode;
+    }
+    return best;
+  };
+  const auto any = [](const auto&) { return true; };
+  // A point at the height h over the centre of mass moves sideways by y - h roll.
+  const auto centre = [](const auto& mode) {
+    return (mode.shape(1) * std::conj(mode.shape(3))).real();
+  };
+  const std::array<Mode, 6> found{
+      greatest({2}, any),
+      greatest({4}, any),
+      greatest({1, 3}, [&](const auto& mode) { return centre(mode) < 0; }),
+      greatest({1, 3}, [&](const auto& mode) { return centre(mode) > 0; }),
+      greatest({5}, any),
+      greatest({0}, any)};
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (std::size_t k = 0; k <= i; ++k) {
+      if (found[i] == nullptr || (k < i && found[i] == found[k])) {
+        throw std::runtime_error(std::string("no mode can be told to be the carbody's ") +
+                                 carbody_mode_names[i]);
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace detail
+
+// From the equations of motion, linearised where the vehicle stands on a straight track.
+// Throws std::runtime_error where it does not rest there, or modes cannot be told apart.
+[[nodiscard]] inline CarbodyModes carbody_modes(const Vehicle& vehicle) {
+  using namespace wheelrail;
+  const MultibodySystem<double> system(vehicle.model);
+  Eigen::VectorXd standing = Eigen::VectorXd::Zero(system.state_size());
+  std::vector<int> bodies{static_cast<int>(vehicle.names.size()) - 1};  // the carbody is the last
+  for (std::size_t i = 0; i < vehicle.names.size(); ++i) {
+    RigidBodyState<double> state;
+    state.position_world = vehicle.positions[i];
+    standing.segment<13>(RigidBodyLayout::offset(static_cast<Eigen::Index>(i))) = pack(state);
+    if (vehicle.names[i].ends_with("bogie frame")) bodies.push_back(static_cast<int>(i));
+  }
+  std::vector<BodyDisplacement> coordinates;
+  Eigen::VectorXd masses(static_cast<Eigen::Index>(6 * bodies.size()));
+  for (const int body : bodies) {
+    masses.segment<6>(static_cast<Eigen::Index>(coordinates.size())) =
+        mass_diagonal(vehicle.model.bodies[static_cast<std::size_t>(body)]);
+    for (int i = 0; i < 6; ++i) coordinates.push_back({body, static_cast<Displacement>(i)});
+  }
+  const std::vector<Wrench<double>> none(system.body_count());
+  const auto damped =
+      linearize(system, standing, coordinates, [&](const Eigen::VectorXd&) { return none; });
+  if (!(damped.residual < 1e-6)) throw std::runtime_error("the vehicle is not at rest");
+  const auto with = eigenmodes(damped), without = eigenmodes(undamped(damped));
+  const auto identified = detail::identify(with.modes, masses);
+  const auto identified_undamped = detail::identify(without.modes, masses);
+  CarbodyModes result;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const auto& shape = identified_undamped[i]->shape;
+    const bool sways = i == static_cast<std::size_t>(CarbodyMode::lower_sway) ||
+                       i == static_cast<std::size_t>(CarbodyMode::upper_sway);
+    result[i] = {identified_undamped[i]->frequency, identified[i]->frequency,
+                 identified[i]->damping_ratio,
+                 sways ? vehicle.positions.back().z() + (shape(1) / shape(3)).real() : 0.0};
+  }
+  return result;
+}
+
+namespace detail {
+
+// M q'' + C q' + K q = 0, of which the carbody's modes are the slowest.
+struct SmallSystem {
+  Eigen::MatrixXd mass, damping, stiffness;
+
+  explicit SmallSystem(std::initializer_list<double> masses)
+      : mass(Eigen::VectorXd::Map(masses.begin(), static_cast<Eigen::Index>(masses.size()))
+                 .asDiagonal()),
+        damping(Eigen::MatrixXd::Zero(mass.rows(), mass.rows())),
+        stiffness(damping) {}
+
+  // A spring and a damper whose elongation is this combination of the coordinates.
+  void add(double k, double c, std::initializer_list<double> elongation) {
+    const auto e =
+        Eigen::VectorXd::Map(elongation.begin(), static_cast<Eigen::Index>(elongation.size()));
+    stiffness += k * e * e.transpose();
+    damping += c * e * e.transpose();
+  }
+  // The potential energy k q_i q_j; k q_i^2 / 2 for i = j.
+  void add_energy(double k, Eigen::Index i, Eigen::Index j) {
+    stiffness(i, j) += k;
+    if (i != j) stiffness(j, i) += k;
+  }
+
+  [[nodiscard]] double undamped_frequency(Eigen::Index mode) const {
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
+    return std::sqrt(solver.eigenvalues()(mode)) / (2 * wheelrail::pi<double>());
+  }
+
+  // Held but for its first n coordinates.
+  [[nodiscard]] SmallSystem first(Eigen::Index n) const {
+    SmallSystem part({});
+    part.mass = mass.topLeftCorner(n, n);
+    part.damping = damping.topLeftCorner(n, n);
+    part.stiffness = stiffness.topLeftCorner(n, n);
+    return part;
+  }
+
+  // The undamped mode in which the coordinate has the greatest share of the kinetic energy.
+  [[nodiscard]] Eigen::Index mode_of(Eigen::Index coordinate) const {
+    // Its columns have the kinetic energy 1.
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
+    Eigen::Index mode = 0;
+    solver.eigenvectors().row(coordinate).cwiseAbs().maxCoeff(&mode);
+    return mode;
+  }
+
+  // Natural frequency and damping ratio of the oscillation that is the `mode`th in frequency.
+  [[nodiscard]] ModeValues values(Eigen::Index mode) const {
+    const Eigen::Index n = mass.rows();
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+    matrix.topRightCorner(n, n).setIdentity();
+    matrix.bottomLeftCorner(n, n) = -mass.inverse() * stiffness;
+    matrix.bottomRightCorner(n, n) = -mass.inverse() * damping;
+    const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, false);
+    std::vector<std::complex<double>> oscillations;
+    for (const auto& value : solver.eigenvalues()) {
+      if (value.imag() > 0) oscillations.push_back(value);
+    }
+    std::sort(oscillations.begin(), oscillations.end(),
+              [](const auto& a, const auto& b) { return std::abs(a) < std::abs(b); });
+    const std::complex<double> value = oscillations.at(static_cast<std::size_t>(mode));
+    const double size = std::abs(value);
+    return {undamped_frequency(mode), size / (2 * wheelrail::pi<double>()), -value.real() / size,
+            0};
+  }
+};
+
+}  // namespace detail
+
+struct ClosedForms {
+  CarbodyModes with_frames;  // the frames move on the primary suspension
+  CarbodyModes rigid;        // the frames are held: one mass; y and roll, x and pitch of it
+};
+
+// From the data alone, for the three planes in which a vehicle with two mirror planes moves. Its two
+// frames do the same, or the opposite; series springs are left out. Weights act as they do in
+// SpringDamper: a preload N turns with the element's a, the frame, and acts where b's end is. Its
+// potential is, in second order, N times
+// roll_a (y_b - z_b roll_b - y_a) + z_a roll_a^2 / 2 + z_b roll_b^2 / 2
+// with the heights z_a and z_b of its point over the centres of mass of a and b; in the vertical
+// plane the same of pitch and x, where a point moves by + z pitch.
+[[nodiscard]] inline ClosedForms closed_forms(const VehicleData& data) {
+  const auto optional = [&](const char* name) { return data.has(name) ? data[name] : 0.0; };
+  struct Suspension {
+    std::array<double, 3> k, c;  // of the whole vehicle
+  };
+  const auto suspension = [&](const std::string& name, const std::string& per, double count) {
+    Suspension s;
+    const char* axes[] = {"x", "y", "z"};
+    for (std::size_t i = 0; i < 3; ++i) {
+      s.k[i] = count * data[name + " k" + axes[i] + " " + per];
+      s.c[i] = count * data[name + " c" + axes[i] + " " + per];
+    }
+    return s;
+  };
+  const Suspension primary = suspension("primary", "per box", 8);
+  const Suspension secondary = suspension("secondary", "per side", 4);
+  const double bar = 2 * optional("anti-roll bar stiffness per bogie") +
+                     4 * optional("secondary bending stiffness per side");
+  const double half_spacing = data["bogie spacing"] / 2, square = half_spacing * half_spacing;
+  const double reach1 = data["primary lateral semi-distance"];
+  const double reach2 = data["secondary lateral semi-distance"];
+  const double frame_height = data["bogie frame centre of mass height"];
+  const double spring_height = data["secondary height above rail"];
+  const double half_base = data["bogie wheelbase"] / 2;
+  const double carbody_height = data["carbody centre of mass height"];
+  const double down = carbody_height - spring_height;        // from the carbody to the springs
+  const double up = spring_height - frame_height;            // from the frame to them
+  const double lower = frame_height - data["wheel radius"];  // from the frame to the axles
+  const double mass = data["carbody mass"], frames = 2 * data["bogie frame mass"];
+  const double frames_roll = 2 * data["bogie frame Ixx"];
+  const double weight = 9.81 * mass, total = weight + 9.81 * frames;
+
+  // z of the carbody and of the frames.
+  detail::SmallSystem bounce({mass, frames});
+  bounce.add(secondary.k[2], secondary.c[2], {1, -1});
+  bounce.add(primary.k[2], primary.c[2], {0, 1});
+
+  // x and pitch of the carbody; x, z and pitch of the frames, of which z is the opposite at the rear.
+  // The carbody's pitch counts as the way down of its place over the front bogie.
+  detail::SmallSystem vertical(
+      {mass, data["carbody Iyy"] / square, frames, frames, 2 * data["bogie frame Iyy"]});
+  vertical.add(secondary.k[0], secondary.c[0], {1, -down / half_spacing, -1, 0, -up});
+  vertical.add(secondary.k[2], secondary.c[2], {0, 1, 0, -1, 0});
+  vertical.add(primary.k[0], primary.c[0], {0, 0, 1, 0, -lower});
+  vertical.add(primary.k[2], primary.c[2], {0, 0, 0, 1, 0});
+  vertical.add(primary.k[2], primary.c[2], {0, 0, 0, 0, half_base});
+  if (data.has("traction rod stiffness")) {
+    const double rod = data["traction rod height above rail"];
+    vertical.add(2 * data["traction rod stiffness"], 2 * data["traction rod damping"],
+                 {1, (rod - carbody_height) / half_spacing, -1, 0, frame_height - rod});
+  }
+  vertical.add_energy(-weight * down / square, 1, 1);
+  vertical.add_energy(-weight, 0, 4);
+  vertical.add_energy(weight * down / half_spacing, 1, 4);
+  vertical.add_energy(weight - total, 2, 4);
+  vertical.add_energy(weight * up + total * lower, 4, 4);
+
+  // y and roll of the frames, which all lateral motions share: coordinates i and i + 1.
+  const auto add_frames = [&](detail::SmallSystem& s, Eigen::Index i) {
+    s.add_energy(total - weight, i, i + 1);
+    s.add_energy(weight * up + total * lower, i + 1, i + 1);
+  };
+  // y and roll of the carbody and of the frames.
+  detail::SmallSystem sway({mass, data["carbody Ixx"], frames, frames_roll});
+  sway.add(secondary.k[1], secondary.c[1], {1, down, -1, up});
+  sway.add(secondary.k[2], secondary.c[2], {0, reach2, 0, -reach2});
+  sway.add(bar, 0, {0, 1, 0, -1});
+  sway.add(primary.k[1], primary.c[1], {0, 0, 1, lower});
+  sway.add(primary.k[2], primary.c[2], {0, 0, 0, reach1});
+  sway.add_energy(-weight * down, 1, 1);
+  sway.add_energy(weight, 0, 3);
+  sway.add_energy(weight * down, 1, 3);
+  add_frames(sway, 2);
+
+  // Yaw of the carbody; y, roll and yaw of the frames, of which y and roll are the opposite at the
+  // rear. The carbody's yaw counts as the way aside of its place over the front bogie.
+  detail::SmallSystem yaw(
+      {data["carbody Izz"] / square, frames, frames_roll, 2 * data["bogie frame Izz"]});
+  yaw.add(secondary.k[1], secondary.c[1], {1, -1, up, 0});
+  yaw.add(secondary.k[0], secondary.c[0], {reach2 / half_spacing, 0, 0, -reach2});
+  yaw.add(secondary.k[2], secondary.c[2], {0, 0, reach2, 0});
+  yaw.add(bar, 0, {0, 0, 1, 0});
+  yaw.add(primary.k[1], primary.c[1], {0, 1, lower, 0});
+  yaw.add(primary.k[1], primary.c[1], {0, 0, 0, half_base});
+  yaw.add(primary.k[0], primary.c[0], {0, 0, 0, reach1});
+  yaw.add(primary.k[2], primary.c[2], {0, 0, reach1, 0});
+  yaw.add_energy(weight, 0, 2);
+  add_frames(yaw, 1);
+
+  const auto forms = [&](bool frames_held) -> CarbodyModes {
+    const auto part = [&](const detail::SmallSystem& s, Eigen::Index carbody_coordinates) {
+      return frames_held ? s.first(carbody_coordinates) : s;
+    };
+    const auto z = part(bounce, 1), xz = part(vertical, 2), y = part(sway, 2), psi = part(yaw, 1);
+    return {z.values(0),   xz.values(xz.mode_of(1)), y.values(0), y.values(1),
+            psi.values(0), xz.values(xz.mode_of(0))};
+  };
+  return {forms(false), forms(true)};
+}
+
+}  // namespace examples
