@@ -12,8 +12,7 @@ cmake -S . -B build/study-build -DCMAKE_BUILD_TYPE=Release -DWHEELRAIL_BUILD_TES
   -DWHEELRAIL_BUILD_EXAMPLES=ON
 cmake --build build/study-build --parallel "$(nproc)"
 
-
-build/study-build/examples/study --output build/study
+build/study-build/examples/three_case_study --output build/study
 
 for plot in examples/plots/*.gp; do
   name=$(basename -- "$plot" .gp)
