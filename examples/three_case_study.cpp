@@ -31,7 +31,7 @@ class Study {
     cases_.bogie.duration = given.within("--bogie-duration", 1e-4, 100);
     cases_.vehicle.start = examples::vehicle_start;
     cases_.vehicle.report_interval = examples::curve_report_interval;
-    cases_.vehicle.duration = given.within("--vehicle-duration", 1e-4, 100);
+    cases_.vehicle.duration = given.within("--vehicle-duration", 1e-4, 41);
     examples::require_length(curve_, vehicle_, cases_.vehicle);
     cases_.repetitions = given.whole("--repetitions", 1, 100);
     cases_.threads = given.whole("--threads", 1, 256);
@@ -40,6 +40,8 @@ class Study {
 
   [[nodiscard]] int run() {
     simulate();
+    cases_.kinematic_wavelengths = {kinematic(convex_wheelset_), kinematic(convex_wheelset_),
+                                    kinematic(real_wheelset_)};
     using examples::write_file;
     write_file(output_ / "fig03_profiles.csv",
                examples::profiles_table(real_, convex_, nominal_radius()));
@@ -68,6 +70,11 @@ class Study {
  private:
   [[nodiscard]] double nominal_radius() const { return vehicle_.wheel_radius; }
 
+  template <class WheelProfile>
+  [[nodiscard]] double kinematic(const Wheelset<WheelProfile>& wheelset) const {
+    return examples::kinematic_wavelength(wheelset, track_, cases_.wheelset.lateral_shift);
+  }
+
   void write_contact_points(const std::string& figure, const examples::StudyRuns& runs) const {
     examples::write_file(output_ / (figure + "_convex.csv"),
                          contact_points_table(runs[1], convex_, nominal_radius()));
@@ -94,7 +101,7 @@ class Study {
       result.seconds = run.seconds;
       run = std::move(result);
     } else {
-      run.repeats = run.repeats && same_samples(run, result);
+      run.repeats = run.repeats && run.fingerprint == result.fingerprint;
     }
   }
 
@@ -174,7 +181,6 @@ class Study {
       });
     }
     examples::run_jobs(jobs, cases_.threads);
-    progress.finish();
   }
 
   // 3 when a run failed, or was not the same again.

@@ -41,6 +41,11 @@ namespace examples {
   return text;
 }
 
+// What redraws a line of a terminal of 80 columns; what is too long for it is cut.
+[[nodiscard]] inline std::string bar_text(const std::string& line) {
+  return "\r" + line.substr(0, 79) + "\033[K";
+}
+
 // May be told of from several threads.
 class Progress {
  public:
@@ -63,13 +68,15 @@ class Progress {
     const double elapsed =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
     const std::string line = progress_text(all, elapsed) + ": " + name;
-    std::fprintf(stderr, terminal_ ? "\r%-78s" : "%s\n", line.c_str());
+    std::fputs(terminal_ ? bar_text(line).c_str() : (line + "\n").c_str(), stderr);
     std::fflush(stderr);
   }
 
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
   // Ends the bar's line.
-  void finish() {
-    if (terminal_ && shown_ >= 0) std::fprintf(stderr, "\n");
+  ~Progress() {
+    if (terminal_ && shown_ >= 0) std::fputs("\n", stderr);
   }
 
  private:

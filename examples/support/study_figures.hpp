@@ -1,10 +1,11 @@
 #pragma once
-// The data of the study's figures that need no simulation: Fig. 3, the profiles, and Fig. 7, the
-// residual of the minimum distance equations on the tread and in the fillet.
+// What the study needs no simulation for: Fig. 3, the profiles, Fig. 7, the residual of the minimum
+// distance equations on the tread and in the fillet, and the kinematic wavelength.
 
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "output.hpp"
 #include "profiles.hpp"
@@ -85,6 +86,44 @@ struct ResidualMap {
   map.outlines +=
       format("\n\n%.5f %.5f\n", contact.position_rail.y() / mm, contact.position_rail.z() / mm);
   return map;
+}
+
+// The wavelength [m] of a wheelset that rolls without sliding, at an amplitude [m] in which both
+// wheels keep to one patch: y'' = -dr(y) / (e R0) along the track, dr the rolling radius difference of
+// rigid contact and e the distance of the contact points. A quarter of it is the integral of
+// dy / sqrt(2 (V(A) - V(y))) to the amplitude A, V that of dr / (e R0); with y = A sin(angle).
+template <class WheelProfile>
+[[nodiscard]] double kinematic_wavelength(const wheelrail::Wheelset<WheelProfile>& wheelset,
+                                          const wheelrail::TangentTrack<RailHead>& track,
+                                          double amplitude) {
+  using wheelrail::Side;
+  const auto at = [&](double shift) { return touching_position(wheelset, track, shift).patches; };
+  const auto radius = [](const auto& patches, Side side) {
+    return patches[index_of(side)].rolling_radius;
+  };
+  const auto centred = at(0);
+  const double distance =
+      wheelset.profile_spacing() + centred[0].wheel_lateral + centred[1].wheel_lateral;
+  const double scale = distance * wheelset.wheel(Side::left).nominal_radius();
+  constexpr int steps = 200;
+  // V at amplitude * sin(angle), by the trapezoidal rule.
+  std::vector<double> shifts, potential;
+  double before = 0;
+  for (int i = 0; i <= steps; ++i) {
+    const double shift = amplitude * std::sin(std::acos(-1.0) / 2 * i / steps);
+    const auto patches = at(shift);
+    const double pull = (radius(patches, Side::left) - radius(patches, Side::right)) / scale;
+    potential.push_back(i == 0 ? 0
+                               : potential.back() + (pull + before) / 2 * (shift - shifts.back()));
+    shifts.push_back(shift);
+    before = pull;
+  }
+  double quarter = 0;
+  for (std::size_t i = 1; i < shifts.size(); ++i) {
+    const double fall = potential.back() - (potential[i] + potential[i - 1]) / 2;
+    quarter += (shifts[i] - shifts[i - 1]) / std::sqrt(2 * fall);
+  }
+  return 4 * quarter;
 }
 
 }  // namespace examples

@@ -14,8 +14,9 @@ struct StudyCases {
   VehicleCase bogie, vehicle;
   int repetitions = 1, threads = 1;
   StudyRuns wheelset_runs, bogie_runs, vehicle_runs;
-  std::array<double, scenarios.size()> wavelengths{};  // of the wheelset's hunting [m]
-  VehicleHistory convex_vehicle, real_vehicle;         // searched by strips
+  std::array<double, scenarios.size()> wavelengths{};            // of the wheelset's hunting [m]
+  std::array<double, scenarios.size()> kinematic_wavelengths{};  // at its lateral shift [m]
+  VehicleHistory convex_vehicle, real_vehicle;                   // searched by strips
 };
 
 // One row of Table 3.
@@ -76,6 +77,14 @@ namespace detail {
   return text + "\n\n";
 }
 
+// A number, or a dash where there is none.
+[[nodiscard]] inline std::string number_text(const char* pattern, double value) {
+  if (std::isnan(value)) return "-";
+  char text[40];
+  std::snprintf(text, sizeof text, pattern, value);
+  return text;
+}
+
 // "10.638 to 10.642 mm"
 [[nodiscard]] inline std::string range_text(const StudyRun& run, double StudySample::*member) {
   const Range range = range_of(run, member);
@@ -98,13 +107,14 @@ namespace detail {
       of.wheelset.speed, of.wheelset.duration, of.wheelset.mass, of.wheelset.roll_inertia,
       of.wheelset.spin_inertia);
   text +=
-      "| scenario | hunting wavelength [m] | rigid kinematics at 2 mm [m] | contact on the left "
+      "| scenario | hunting wavelength [m] | of rolling without sliding at 2 mm [m] | contact on "
+      "the left "
       "rail | on the left wheel |\n|---|---|---|---|---|\n";
-  const double kinematic[] = {38.4, 38.4, 35.9};
   for (std::size_t s = 0; s < scenarios.size(); ++s) {
     const StudyRun& run = of.wheelset_runs[s];
-    text += format("| %s | %.3f | %.1f | %s | %s |\n", scenarios[s].title, of.wavelengths[s],
-                   kinematic[s], range_text(run, &StudySample::left_rail_lateral).c_str(),
+    text += format("| %s | %s | %.2f | %s | %s |\n", scenarios[s].title,
+                   number_text("%.3f", of.wavelengths[s]).c_str(), of.kinematic_wavelengths[s],
+                   range_text(run, &StudySample::left_rail_lateral).c_str(),
                    range_text(run, &StudySample::left_wheel_lateral).c_str());
   }
   return text + "\n" +
@@ -124,13 +134,15 @@ namespace detail {
   };
   text +=
       "| scenario | greatest shift in the second half, of that at the start: wheelset | bogie | "
-      "contact on the left rail | on the left wheel |\n|---|---|---|---|---|\n";
+      "contact on the left rail | on the left wheel | greatest constraint violation |\n"
+      "|---|---|---|---|---|---|\n";
   for (std::size_t s = 0; s < scenarios.size(); ++s) {
-    text += format("| %s | %.3g | %.3g | %s | %s |\n", scenarios[s].title,
+    text += format("| %s | %.3g | %.3g | %s | %s | %.2g |\n", scenarios[s].title,
                    left(of.wheelset_runs[s], of.wheelset.lateral_shift),
                    left(of.bogie_runs[s], of.bogie.lateral_shift),
                    range_text(of.bogie_runs[s], &StudySample::left_rail_lateral).c_str(),
-                   range_text(of.bogie_runs[s], &StudySample::left_wheel_lateral).c_str());
+                   range_text(of.bogie_runs[s], &StudySample::left_wheel_lateral).c_str(),
+                   of.bogie_runs[s].constraint_violation);
   }
   return text +
          "\nThe paper: the bogie's oscillation decays faster than the wheelset's; on the convex "
@@ -139,13 +151,46 @@ namespace detail {
          "![Fig. 17](fig17_bogie_contact_points.png)\n\n";
 }
 
+// What the right wheel of the leading wheelset shows: when it has three patches or more, gaps of up
+// to 0.1 s aside, and what it has at 20 s.
+[[nodiscard]] inline std::string patches_seen(const VehicleHistory& history) {
+  std::string text;
+  double begin = std::nan(""), end = 0;
+  const auto close = [&] {
+    if (std::isnan(begin)) return;
+    text += format("%s%.2f to %.2f s", text.empty() ? "three patches or more from " : " and from ",
+                   begin, end);
+    begin = std::nan("");
+  };
+  std::string later;
+  for (const VehicleRecord& r : history.records) {
+    const WheelRecord& wheel = r.wheelsets[0].wheels[index_of(Side::right)];
+    if (end + 0.1 < r.time) close();
+    if (wheel.patch_count > 2) {
+      if (std::isnan(begin)) begin = r.time;
+      end = r.time;
+    }
+    if (std::abs(r.time - 20) < 1e-6) {
+      later = "; at 20 s";
+      for (int k = 0; k < std::min(wheel.patch_count, 4); ++k) {
+        const auto& p = wheel.patches[static_cast<std::size_t>(k)];
+        later += format("%s u_w = %.1f mm (%.1f kN)", k == 0 ? "" : ",", 1e3 * p.wheel_lateral,
+                        1e-3 * p.normal_force);
+      }
+    }
+  }
+  close();
+  return (text.empty() ? "never three patches" : text) + later;
+}
+
 [[nodiscard]] inline std::string vehicle_section(const StudyCases& of) {
   std::string text = format(
       "## Vehicle in a left curve of 300 m\n\n%g m/s, %g s; right (outer) wheel of the leading "
-      "wheelset, flange contact from its first to its last instant. The paper does not state "
+      "wheelset. Flange contact: from the first to the last instant at which a patch lies further "
+      "inside than u_w = %g mm. The paper does not state "
       "transitions and cant: ours are in examples/support/curve.hpp, chosen for the beginning and "
       "end of the flange contact; nothing else is fitted.\n\n",
-      of.vehicle.speed, of.vehicle.duration);
+      of.vehicle.speed, of.vehicle.duration, 1e3 * flange_begin);
   text +=
       "| profile | flange contact [s] | the paper [s] | share of it with 1 patch | 2 | 3 | 4 or "
       "more | greatest constraint violation |\n|---|---|---|---|---|---|---|---|\n";
@@ -157,6 +202,7 @@ namespace detail {
   };
   row("convex", "5.2 to 37.1", of.convex_vehicle);
   row("S1002", "5.2 to 36.5", of.real_vehicle);
+  text += "\nS1002: " + patches_seen(of.real_vehicle) + ".\n";
   text +=
       "\nThe paper: convex, one patch on the tread and one on the flange throughout; S1002, one "
       "patch "

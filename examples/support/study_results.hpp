@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -34,8 +36,10 @@ struct StudyRun {
   double end_time = 0;
   int steps = 0;
   long searches = 0, evaluations = 0, failures = 0;
+  double constraint_violation = 0;  // greatest |Phi| [m, -]
   std::vector<double> seconds;
-  bool repeats = true;  // every repetition gave the same samples, bit for bit
+  std::uint64_t fingerprint = 0;  // of all that was recorded and counted
+  bool repeats = true;            // every repetition has the same
 
   [[nodiscard]] double median_seconds() const {
     std::vector<double> sorted = seconds;
@@ -63,39 +67,85 @@ struct StudyRun {
     if (deepest == nullptr || deepest->penetration < patch.penetration) deepest = &patch;
   }
   const double none = std::nan("");
-  return {record.time, leading.lateral_shift, wheel.normal_force(),
+  return {record.time, leading.lateral_shift, wheel.normal_force,
           deepest != nullptr ? deepest->wheel_lateral : none,
           deepest != nullptr ? deepest->rail_lateral : none};
+}
+
+// The bits of a sequence of numbers, mixed (FNV-1a).
+class Fingerprint {
+ public:
+  void add(double x) {
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    for (int shift = 0; shift < 64; shift += 8) {
+      value_ = (value_ ^ (bits >> shift & 0xff)) * 0x100000001b3ULL;
+    }
+  }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325ULL;
+};
+
+inline void add(Fingerprint& to, const WheelsetRecord& record) {
+  for (const double x : pack(record.state)) to.add(x);
+  for (const auto& wheel : record.forces.wheels) {
+    for (const double x : wheel.force_track) to.add(x);
+    for (const auto& patch : wheel.patches) {
+      to.add(patch.patch.wheel_lateral);
+      to.add(patch.patch.penetration);
+      to.add(patch.contact.normal);
+    }
+  }
+}
+
+inline void add(Fingerprint& to, const VehicleRecord& record) {
+  to.add(record.arc_length);
+  for (const WheelsetTrace& wheelset : record.wheelsets) {
+    to.add(wheelset.lateral_shift);
+    to.add(wheelset.yaw);
+    for (const WheelRecord& wheel : wheelset.wheels) {
+      to.add(wheel.patch_count);
+      to.add(wheel.force_y);
+      to.add(wheel.force_z);
+      for (const auto& patch : wheel.patches) {
+        to.add(patch.wheel_lateral);
+        to.add(patch.penetration);
+        to.add(patch.normal_force);
+      }
+    }
+  }
 }
 
 // `history` as a run without times.
 template <class History>
 [[nodiscard]] StudyRun study_run(const History& history) {
   StudyRun run;
+  Fingerprint fingerprint;
   run.samples.reserve(history.records.size());
-  for (const auto& record : history.records) run.samples.push_back(sample_of(record));
+  for (const auto& record : history.records) {
+    run.samples.push_back(sample_of(record));
+    fingerprint.add(record.time);
+    add(fingerprint, record);
+  }
   run.status = history.status;
   run.end_time = history.end_time;
   run.steps = history.steps;
   run.searches = history.searches;
   run.evaluations = history.evaluations;
   run.failures = history.failures;
+  if constexpr (requires { history.constraint_violation; }) {
+    run.constraint_violation = history.constraint_violation;
+  }
+  for (const double count : {static_cast<double>(run.steps), static_cast<double>(run.searches),
+                             static_cast<double>(run.evaluations)}) {
+    fingerprint.add(count);
+  }
+  run.fingerprint = fingerprint.value();
   return run;
 }
 
 using StudyRuns = std::array<StudyRun, scenarios.size()>;
-
-// Equal samples; where there is no contact (NaN) in both, too.
-[[nodiscard]] inline bool same_samples(const StudyRun& a, const StudyRun& b) {
-  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
-  return std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(),
-                    [&](const StudySample& x, const StudySample& y) {
-                      return same(x.time, y.time) && same(x.lateral_shift, y.lateral_shift) &&
-                             same(x.left_normal_force, y.left_normal_force) &&
-                             same(x.left_wheel_lateral, y.left_wheel_lateral) &&
-                             same(x.left_rail_lateral, y.left_rail_lateral);
-                    });
-}
 
 // Greatest distance of two runs' lateral shifts at equal times [m].
 [[nodiscard]] inline double greatest_difference(const StudyRun& a, const StudyRun& b) {

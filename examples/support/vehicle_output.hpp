@@ -30,7 +30,7 @@ namespace examples {
       const WheelsetTrace& w = r.wheelsets[i];
       text += format(",%.10g,%.10g", plain(w.lateral_shift), plain(w.yaw));
       for (const WheelRecord& wheel : w.wheels) {
-        text += format(",%d,%.8g,%.8g,%.8g", wheel.patch_count, wheel.normal_force(),
+        text += format(",%d,%.8g,%.8g,%.8g", wheel.patch_count, wheel.normal_force,
                        plain(wheel.force_y), plain(wheel.force_z));
       }
     }
@@ -58,8 +58,11 @@ namespace examples {
   return text;
 }
 
-// When the leading wheelset's right wheel first and last touches with its fillet or flange (wheel
-// lateral below -20 mm), and how many patches it has in between, in shares of the time.
+// Patches further inside than this are on the steep part of the fillet or on the flange [m].
+inline constexpr double flange_begin = -0.02;
+
+// When the leading wheelset's right wheel first and last touches inside flange_begin, and how many
+// patches it has in between, in shares of the time.
 struct CurveContact {
   double begin = std::nan(""), end = std::nan("");
   std::array<double, 5> share{};  // with 0, 1, 2, 3, 4 and more patches
@@ -68,9 +71,9 @@ struct CurveContact {
 [[nodiscard]] inline CurveContact curve_contact(const VehicleHistory& history) {
   CurveContact contact;
   const auto on_flange = [](const VehicleRecord& r) {
-    const WheelRecord& wheel = r.wheelsets[0].wheels[1];
+    const WheelRecord& wheel = r.wheelsets[0].wheels[index_of(wheelrail::Side::right)];
     for (int k = 0; k < std::min(wheel.patch_count, 4); ++k) {
-      if (wheel.patches[static_cast<std::size_t>(k)].wheel_lateral < -0.02) return true;
+      if (wheel.patches[static_cast<std::size_t>(k)].wheel_lateral < flange_begin) return true;
     }
     return false;
   };
@@ -83,9 +86,8 @@ struct CurveContact {
   for (const VehicleRecord& r : history.records) {
     if (!(contact.begin <= r.time && r.time <= contact.end)) continue;
     total += 1;
-    contact
-        .share[static_cast<std::size_t>(std::clamp(r.wheelsets[0].wheels[1].patch_count, 0, 4))] +=
-        1;
+    contact.share[static_cast<std::size_t>(std::clamp(
+        r.wheelsets[0].wheels[index_of(wheelrail::Side::right)].patch_count, 0, 4))] += 1;
   }
   for (double& share : contact.share) share = total > 0 ? share / total : 0;
   return contact;

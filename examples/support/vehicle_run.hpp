@@ -44,14 +44,8 @@ struct WheelRecord {
     double wheel_lateral, rail_lateral, penetration, normal_force, semi_axis_a, semi_axis_b;
   };
   std::array<PatchRecord, 4> patches{};  // the first four, from the flange to the field side
+  double normal_force = 0;               // the sum over all patches [N]
   double force_y = 0, force_z = 0;       // on the wheel, in the rail track's plane [N]
-  [[nodiscard]] double normal_force() const {
-    double sum = 0;
-    for (int k = 0; k < std::min(patch_count, 4); ++k) {
-      sum += patches[static_cast<std::size_t>(k)].normal_force;
-    }
-    return sum;
-  }
 };
 
 struct WheelsetTrace {
@@ -343,6 +337,7 @@ class VehicleOnTrack {
           kept.patches[k] = {p.patch.wheel_lateral, p.patch.rail_lateral, p.patch.penetration,
                              p.contact.normal,      p.contact.ellipse.a,  p.contact.ellipse.b};
         }
+        for (const auto& patch : wheel.patches) kept.normal_force += patch.contact.normal;
         kept.force_y = left.dot(wheel.force_track);
         kept.force_z = wheel.force_track.dot(up);
         const wheelrail::Vector3<double> from_rail =

@@ -149,6 +149,9 @@ TEST_CASE("three_case_study: a log shows how far it is and what is left", "[exam
   CHECK(examples::progress_text(0, 0.1) == "[....................]   0 %");
   CHECK(examples::progress_text(0.25, 30) == "[#####...............]  25 %, 1 min 30 s left");
   CHECK(examples::progress_text(1, 61.2) == "[####################] 100 %, 1 min 01 s in all");
+  // On a terminal it stays within one line, whatever the name, and leaves nothing of the last one.
+  CHECK(examples::bar_text("short") == "\rshort\033[K");
+  CHECK(examples::bar_text(std::string(200, 'x')) == "\r" + std::string(79, 'x') + "\033[K");
   const TemporaryDirectory scratch;
   const auto result = run_program("three_case_study", short_study(scratch / "study", "2"));
   const Strings lines = lines_of(result.error);
@@ -171,7 +174,7 @@ TEST_CASE("three_case_study: bad input is refused in one line and leaves nothing
     const auto result = run_program("three_case_study", all);
     CAPTURE(arguments, result.exit_code, result.output, result.error);
     CHECK(refuses(result, "three_case_study"));
-    CHECK_THAT(result.error, Contains(arguments[0]) || Contains("the track is"));
+    CHECK_THAT(result.error, Contains(arguments[0]));
     CHECK(names_in(scratch.path()).empty());
   }
   write_text(scratch / "file", "kept");
