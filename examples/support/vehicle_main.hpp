@@ -21,12 +21,25 @@ namespace examples {
   return run_options("18.3", duration, own);
 }
 
+[[nodiscard]] inline std::string vehicle_file(const Arguments& given) {
+  return given.given("--vehicle") ? given.text("--vehicle")
+                                  : std::string(WHEELRAIL_VEHICLES_DIR) + "/metro_trailer.csv";
+}
+
 [[nodiscard]] inline VehicleData vehicle_data(const Arguments& given) {
-  const std::string file = given.given("--vehicle")
-                               ? given.text("--vehicle")
-                               : std::string(WHEELRAIL_VEHICLES_DIR) + "/metro_trailer.csv";
   const bool all = given.choice("--unconfirmed", {"no", "yes"}) == "yes";
-  return VehicleData(file, all ? Unconfirmed::used : Unconfirmed::left_out);
+  return VehicleData(vehicle_file(given), all ? Unconfirmed::used : Unconfirmed::left_out);
+}
+
+// Which vehicle a run has, as the head of its summary.
+[[nodiscard]] inline std::string vehicle_summary(const Arguments& given) {
+  const std::size_t count = vehicle_data(given).left_out().size();
+  std::string text = "vehicle: " + vehicle_file(given) + "\n";
+  if (count > 0) {
+    text += "left_out: " + std::to_string(count) +
+            (count == 1 ? " unconfirmed quantity\n" : " unconfirmed quantities\n");
+  }
+  return text;
 }
 
 [[nodiscard]] inline VehicleCase vehicle_case(const Arguments& given) {
@@ -42,6 +55,7 @@ template <class Track>
                                 const Track& track, const VehicleCase& run) {
   const auto model = force_model(given);
   const std::string method = given.choice("--method", method_names);
+  const std::string head = vehicle_summary(given) + run_summary(given);
   return with_wheel_profile(given.choice("--wheel", wheel_names), [&](const auto& profile) {
     const wheelrail::Wheelset wheelset(profile, vehicle.wheel_radius, vehicle.profile_spacing);
     require_fit(wheelset, track);
@@ -50,7 +64,7 @@ template <class Track>
     const VehicleHistory history = with_search(method, profile, [&](const auto& search) {
       return run_vehicle(vehicle, wheelset, track, model, search, run);
     });
-    const std::string text = run_summary(given) + summary(history);
+    const std::string text = head + summary(history);
     if (!output.empty()) {
       write_file(output / "time_series.csv", time_series_csv(history, vehicle));
       write_file(output / "patches.csv", patches_csv(history));

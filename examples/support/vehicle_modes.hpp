@@ -1,6 +1,7 @@
 #pragma once
-// The carbody's modes on its suspension, with wheelsets and axleboxes held: from the equations of
-// motion, and from formulae for them that share nothing with the library.
+// The carbody's modes on its suspension, with wheelsets and axleboxes held: from the library's
+// equations of motion, and from small systems of equations made by hand, which share with them only
+// how modes are told apart.
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -24,8 +25,8 @@ inline constexpr std::array<const char*, 6> carbody_mode_names{"bounce",     "pi
 
 struct ModeValues {
   double undamped_frequency = 0;  // with all dampers taken out [Hz]
-  double natural_frequency = 0;   // |eigenvalue| / (2 pi) with dampers [Hz]
-  double damping_ratio = 0;       // [-]
+  double natural_frequency = 0;   // |eigenvalue| / (2 pi) with dampers; see DampedValues [Hz]
+  double damping_ratio = 0;       // [-]; >= 1: overdamped
   double rotation_centre = 0;     // above the rail, of an undamped sway; 0 for other modes [m]
 };
 
@@ -34,34 +35,94 @@ using CarbodyModes = std::array<ModeValues, 6>;
 
 namespace detail {
 
-// For each CarbodyMode the mode that it is, by shares of kinetic energy: bounce is where the
+// A motion in proportion to exp(eigenvalue t); one of each pair of conjugates.
+struct Motion {
+  std::complex<double> eigenvalue;
+  Eigen::VectorXcd shape;
+};
+
+// |x* M y|^2 / ((x* M x) (y* M y)): the share of y's kinetic energy that is in the shape x, where
+// x is one of a set of shapes that are orthogonal in M.
+[[nodiscard]] inline double share_in(const Eigen::VectorXcd& x, const Eigen::VectorXcd& y,
+                                     const Eigen::VectorXd& masses) {
+  const Eigen::VectorXcd momentum = masses.asDiagonal() * y;
+  const double size = masses.dot(x.cwiseAbs2()) * masses.dot(y.cwiseAbs2());
+  return size > 0 ? std::norm(x.dot(momentum)) / size : 0.0;
+}
+
+// An oscillation's |eigenvalue| and -Re eigenvalue / |eigenvalue|. An overdamped mode has two real
+// eigenvalues a and b: sqrt(a b) and -(a + b) / 2 / sqrt(a b), as of an oscillator; NaN where two are
+// not left for it.
+struct DampedValues {
+  double frequency = std::nan("");      // [Hz]
+  double damping_ratio = std::nan("");  // [-], >= 1 where nothing oscillates
+};
+
+// What becomes of undamped modes with dampers. First each oscillation goes to a mode, then two real
+// motions to each mode that is left; pairs of mode and motion that share most come first. So a mode
+// keeps its name where oscillations are fewer than modes, and no oscillation is without one.
+[[nodiscard]] inline std::vector<DampedValues> follow(const std::vector<Eigen::VectorXcd>& modes,
+                                                      const std::vector<Motion>& motions,
+                                                      const Eigen::VectorXd& masses) {
+  struct Pair {
+    double share;
+    std::size_t mode, motion;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    for (std::size_t k = 0; k < motions.size(); ++k) {
+      pairs.push_back({share_in(modes[i], motions[k].shape, masses), i, k});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.share > b.share; });
+  std::vector<std::vector<std::complex<double>>> eigenvalues(modes.size());  // two of each
+  std::vector<bool> is_taken(motions.size(), false);
+  for (const bool oscillates : {true, false}) {
+    for (const Pair& pair : pairs) {
+      const std::complex<double> value = motions[pair.motion].eigenvalue;
+      auto& own = eigenvalues[pair.mode];
+      if ((value.imag() != 0) != oscillates || is_taken[pair.motion] || own.size() == 2) continue;
+      own.push_back(value);
+      if (oscillates) own.push_back(std::conj(value));
+      is_taken[pair.motion] = true;
+    }
+  }
+  std::vector<DampedValues> result(modes.size());
+  for (std::size_t i = 0; i < modes.size(); ++i) {
+    const auto& own = eigenvalues[i];
+    if (own.size() < 2) continue;
+    const double size = std::sqrt((own[0] * own[1]).real());
+    result[i] = {size / (2 * wheelrail::pi<double>()), -(own[0] + own[1]).real() / 2 / size};
+  }
+  return result;
+}
+
+// For each CarbodyMode the undamped mode that it is, by shares of kinetic energy: bounce is where the
 // carbody's z has its greatest share, and so on; the sways are where its y and roll have. The lower
 // one turns about an axis below the centre of mass, the upper one above.
 // @param masses of the coordinates, which begin with the carbody's x, y, z, roll, pitch, yaw.
-[[nodiscard]] inline std::array<const wheelrail::Eigenmode<double>*, 6> identify(
-    const std::vector<wheelrail::Eigenmode<double>>& modes, const Eigen::VectorXd& masses) {
-  using Mode = const wheelrail::Eigenmode<double>*;
-  const auto share = [&](const auto& mode, std::initializer_list<Eigen::Index> coordinates) {
-    const Eigen::VectorXd energy = masses.cwiseProduct(mode.shape.cwiseAbs2());
+[[nodiscard]] inline std::array<std::size_t, 6> identify(const std::vector<Eigen::VectorXcd>& modes,
+                                                         const Eigen::VectorXd& masses) {
+  const auto share = [&](std::size_t mode, std::initializer_list<Eigen::Index> coordinates) {
+    const Eigen::VectorXd energy = masses.cwiseProduct(modes[mode].cwiseAbs2());
     double sum = 0;
     for (const Eigen::Index i : coordinates) sum += energy(i);
     return sum / energy.sum();
   };
   const auto greatest = [&](std::initializer_list<Eigen::Index> coordinates, const auto& counts) {
-    Mode best = nullptr;
-    for (const auto& mode : modes) {
+    std::size_t best = modes.size();
+    for (std::size_t mode = 0; mode < modes.size(); ++mode) {
       const bool is_better =
-          best == nullptr || share(*best, coordinates) < share(mode, coordinates);
-      if (counts(mode) && is_better) best = &mode;
+          best == modes.size() || share(best, coordinates) < share(mode, coordinates);
+      if (counts(modes[mode]) && is_better) best = mode;
     }
     return best;
   };
   const auto any = [](const auto&) { return true; };
   // A point at the height h over the centre of mass moves sideways by y - h roll.
-  const auto centre = [](const auto& mode) {
-    return (mode.shape(1) * std::conj(mode.shape(3))).real();
-  };
-  const std::array<Mode, 6> found{
+  const auto centre = [](const auto& shape) { return (shape(1) * std::conj(shape(3))).real(); };
+  const std::array<std::size_t, 6> found{
       greatest({2}, any),
       greatest({4}, any),
       greatest({1, 3}, [&](const auto& mode) { return centre(mode) < 0; }),
@@ -70,7 +131,7 @@ namespace detail {
       greatest({0}, any)};
   for (std::size_t i = 0; i < found.size(); ++i) {
     for (std::size_t k = 0; k <= i; ++k) {
-      if (found[i] == nullptr || (k < i && found[i] == found[k])) {
+      if (found[i] == modes.size() || (k < i && found[i] == found[k])) {
         throw std::runtime_error(std::string("no mode can be told to be the carbody's ") +
                                  carbody_mode_names[i]);
       }
@@ -79,10 +140,28 @@ namespace detail {
   return found;
 }
 
+// Throws std::runtime_error where an undamped mode does not oscillate: no spring, or one weaker than
+// the weight that leans on it. Rounding makes 1e-8 of the highest frequency of nothing at all.
+inline void require_oscillations(const std::vector<wheelrail::Eigenmode<double>>& modes,
+                                 const Eigen::VectorXd& masses,
+                                 const std::vector<std::string>& coordinates) {
+  for (const auto& mode : modes) {
+    const bool oscillates =
+        mode.frequency > 1e-4 * modes.back().frequency && std::abs(mode.damping_ratio) < 0.01;
+    if (oscillates) continue;
+    Eigen::Index greatest = 0;
+    masses.cwiseProduct(mode.shape.cwiseAbs2()).maxCoeff(&greatest);
+    throw std::runtime_error("the springs do not hold the vehicle: without dampers " +
+                             coordinates[static_cast<std::size_t>(greatest)] +
+                             " does not oscillate, so that there are no modes");
+  }
+}
+
 }  // namespace detail
 
 // From the equations of motion, linearised where the vehicle stands on a straight track.
-// Throws std::runtime_error where it does not rest there, or modes cannot be told apart.
+// Throws std::runtime_error where it does not rest there, springs do not hold it, or modes cannot be
+// told apart.
 [[nodiscard]] inline CarbodyModes carbody_modes(const Vehicle& vehicle) {
   using namespace wheelrail;
   const MultibodySystem<double> system(vehicle.model);
@@ -95,34 +174,47 @@ namespace detail {
     if (vehicle.names[i].ends_with("bogie frame")) bodies.push_back(static_cast<int>(i));
   }
   std::vector<BodyDisplacement> coordinates;
+  std::vector<std::string> coordinate_names;
   Eigen::VectorXd masses(static_cast<Eigen::Index>(6 * bodies.size()));
   for (const int body : bodies) {
     masses.segment<6>(static_cast<Eigen::Index>(coordinates.size())) =
         mass_diagonal(vehicle.model.bodies[static_cast<std::size_t>(body)]);
-    for (int i = 0; i < 6; ++i) coordinates.push_back({body, static_cast<Displacement>(i)});
+    const char* directions[] = {"x", "y", "z", "roll", "pitch", "yaw"};
+    for (int i = 0; i < 6; ++i) {
+      coordinates.push_back({body, static_cast<Displacement>(i)});
+      coordinate_names.push_back("the " + vehicle.names[static_cast<std::size_t>(body)] + "'s " +
+                                 directions[i]);
+    }
   }
   const std::vector<Wrench<double>> none(system.body_count());
   const auto damped =
       linearize(system, standing, coordinates, [&](const Eigen::VectorXd&) { return none; });
   if (!(damped.residual < 1e-6)) throw std::runtime_error("the vehicle is not at rest");
-  const auto with = eigenmodes(damped), without = eigenmodes(undamped(damped));
-  const auto identified = detail::identify(with.modes, masses);
-  const auto identified_undamped = detail::identify(without.modes, masses);
+  const auto undamped_modes = eigenmodes(undamped(damped)).modes;
+  detail::require_oscillations(undamped_modes, masses, coordinate_names);
+  std::vector<Eigen::VectorXcd> shapes;
+  for (const auto& mode : undamped_modes) shapes.push_back(mode.shape);
+  std::vector<detail::Motion> motions;
+  for (const auto& mode : eigenmodes(damped).modes) {
+    motions.push_back({mode.eigenvalue, mode.shape});
+  }
+  const auto values = detail::follow(shapes, motions, masses);
+  const auto identified = detail::identify(shapes, masses);
   CarbodyModes result;
   for (std::size_t i = 0; i < result.size(); ++i) {
-    const auto& shape = identified_undamped[i]->shape;
+    const std::size_t mode = identified[i];
     const bool sways = i == static_cast<std::size_t>(CarbodyMode::lower_sway) ||
                        i == static_cast<std::size_t>(CarbodyMode::upper_sway);
-    result[i] = {identified_undamped[i]->frequency, identified[i]->frequency,
-                 identified[i]->damping_ratio,
-                 sways ? vehicle.positions.back().z() + (shape(1) / shape(3)).real() : 0.0};
+    const double centre = (shapes[mode](1) / shapes[mode](3)).real();
+    result[i] = {undamped_modes[mode].frequency, values[mode].frequency, values[mode].damping_ratio,
+                 sways ? vehicle.positions.back().z() + centre : 0.0};
   }
   return result;
 }
 
 namespace detail {
 
-// M q'' + C q' + K q = 0, of which the carbody's modes are the slowest.
+// M q'' + C q' + K q = 0 with a diagonal M.
 struct SmallSystem {
   Eigen::MatrixXd mass, damping, stiffness;
 
@@ -145,11 +237,6 @@ struct SmallSystem {
     if (i != j) stiffness(j, i) += k;
   }
 
-  [[nodiscard]] double undamped_frequency(Eigen::Index mode) const {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
-    return std::sqrt(solver.eigenvalues()(mode)) / (2 * wheelrail::pi<double>());
-  }
-
   // Held but for its first n coordinates.
   [[nodiscard]] SmallSystem first(Eigen::Index n) const {
     SmallSystem part({});
@@ -159,39 +246,52 @@ struct SmallSystem {
     return part;
   }
 
-  // The undamped mode in which the coordinate has the greatest share of the kinetic energy.
-  [[nodiscard]] Eigen::Index mode_of(Eigen::Index coordinate) const {
-    // Its columns have the kinetic energy 1.
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
-    Eigen::Index mode = 0;
-    solver.eigenvectors().row(coordinate).cwiseAbs().maxCoeff(&mode);
-    return mode;
+  // Its mode in which the coordinate has the greatest share of the kinetic energy.
+  [[nodiscard]] ModeValues mode_of(Eigen::Index coordinate) const {
+    return mode_where([&](const auto& shape) { return std::abs(shape(coordinate)); });
   }
 
-  // Natural frequency and damping ratio of the oscillation that is the `mode`th in frequency.
-  [[nodiscard]] ModeValues values(Eigen::Index mode) const {
+  // Of those modes in which the first two coordinates have this sign to each other, the one in which
+  // they have the greatest share of the kinetic energy.
+  [[nodiscard]] ModeValues mode_of_two(double sign) const {
+    return mode_where([&](const auto& shape) {
+      const double energy = mass(0, 0) * shape(0) * shape(0) + mass(1, 1) * shape(1) * shape(1);
+      return sign * shape(0) * shape(1) > 0 ? energy : 0.0;
+    });
+  }
+
+ private:
+  // @param measure of shapes that have the kinetic energy 1.
+  template <class Measure>
+  [[nodiscard]] ModeValues mode_where(const Measure& measure) const {
     const Eigen::Index n = mass.rows();
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> undamped(stiffness, mass);
+    Eigen::Index mode = 0;
+    std::vector<Eigen::VectorXcd> shapes;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Eigen::VectorXd shape = undamped.eigenvectors().col(i);
+      if (measure(undamped.eigenvectors().col(mode)) < measure(shape)) mode = i;
+      shapes.emplace_back(shape.cast<std::complex<double>>());
+    }
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(2 * n, 2 * n);
     matrix.topRightCorner(n, n).setIdentity();
     matrix.bottomLeftCorner(n, n) = -mass.inverse() * stiffness;
     matrix.bottomRightCorner(n, n) = -mass.inverse() * damping;
-    const Eigen::EigenSolver<Eigen::MatrixXd> solver(matrix, false);
-    std::vector<std::complex<double>> oscillations;
-    for (const auto& value : solver.eigenvalues()) {
-      if (value.imag() > 0) oscillations.push_back(value);
+    const Eigen::EigenSolver<Eigen::MatrixXd> damped(matrix);
+    std::vector<Motion> motions;
+    for (Eigen::Index i = 0; i < 2 * n; ++i) {
+      const std::complex<double> value = damped.eigenvalues()(i);
+      if (value.imag() >= 0) motions.push_back({value, damped.eigenvectors().col(i).head(n)});
     }
-    std::sort(oscillations.begin(), oscillations.end(),
-              [](const auto& a, const auto& b) { return std::abs(a) < std::abs(b); });
-    const std::complex<double> value = oscillations.at(static_cast<std::size_t>(mode));
-    const double size = std::abs(value);
-    return {undamped_frequency(mode), size / (2 * wheelrail::pi<double>()), -value.real() / size,
-            0};
+    const auto values = follow(shapes, motions, mass.diagonal())[static_cast<std::size_t>(mode)];
+    return {std::sqrt(undamped.eigenvalues()(mode)) / (2 * wheelrail::pi<double>()),
+            values.frequency, values.damping_ratio, 0};
   }
 };
 
 }  // namespace detail
 
-struct ClosedForms {
+struct ModesByHand {
   CarbodyModes with_frames;  // the frames move on the primary suspension
   CarbodyModes rigid;        // the frames are held: one mass; y and roll, x and pitch of it
 };
@@ -203,7 +303,7 @@ struct ClosedForms {
 // roll_a (y_b - z_b roll_b - y_a) + z_a roll_a^2 / 2 + z_b roll_b^2 / 2
 // with the heights z_a and z_b of its point over the centres of mass of a and b; in the vertical
 // plane the same of pitch and x, where a point moves by + z pitch.
-[[nodiscard]] inline ClosedForms closed_forms(const VehicleData& data) {
+[[nodiscard]] inline ModesByHand modes_by_hand(const VehicleData& data) {
   const auto optional = [&](const char* name) { return data.has(name) ? data[name] : 0.0; };
   struct Suspension {
     std::array<double, 3> k, c;  // of the whole vehicle
@@ -297,8 +397,8 @@ struct ClosedForms {
       return frames_held ? s.first(carbody_coordinates) : s;
     };
     const auto z = part(bounce, 1), xz = part(vertical, 2), y = part(sway, 2), psi = part(yaw, 1);
-    return {z.values(0),   xz.values(xz.mode_of(1)), y.values(0), y.values(1),
-            psi.values(0), xz.values(xz.mode_of(0))};
+    return {z.mode_of(0),     xz.mode_of(1),  y.mode_of_two(-1),
+            y.mode_of_two(1), psi.mode_of(0), xz.mode_of(0)};
   };
   return {forms(false), forms(true)};
 }

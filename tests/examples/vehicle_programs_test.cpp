@@ -37,6 +37,31 @@ TEST_CASE("vehicle programs: a short run writes its tables and its summary", "[e
   }
 }
 
+TEST_CASE("vehicle programs: the summary begins with the vehicle and what its data leave out",
+          "[examples]") {
+  const std::string vehicles = std::string(WHEELRAIL_SOURCE_DIR) + "/examples/vehicles/";
+  const auto head = [](const char* program, Strings arguments) {
+    arguments.insert(arguments.end(), {"--duration", "0.01"});
+    const Strings lines = lines_of(run_program(program, arguments).output);
+    REQUIRE(lines.size() > 2);
+    return lines[0] + "\n" + lines[1];
+  };
+  const std::string manchester = vehicles + "manchester_vehicle1.csv";
+  TemporaryDirectory scratch;
+  write_text(scratch.path() / "one.csv", read_text(vehicles + "metro_trailer.csv") +
+                                             "traction rod stiffness,1000,N/m,unconfirmed\n");
+  for (const char* program : {"bogie_on_tangent_track", "vehicle_on_curved_track"}) {
+    CAPTURE(program);
+    CHECK(head(program, {}) == "vehicle: " + vehicles + "metro_trailer.csv\nwheel: s1002");
+    CHECK(head(program, {"--vehicle", manchester}) ==
+          "vehicle: " + manchester + "\nleft_out: 6 unconfirmed quantities");
+    CHECK(head(program, {"--vehicle", manchester, "--unconfirmed", "yes"}) ==
+          "vehicle: " + manchester + "\nwheel: s1002");
+    CHECK_THAT(head(program, {"--vehicle", scratch / "one.csv"}),
+               Contains("left_out: 1 unconfirmed quantity"));
+  }
+}
+
 TEST_CASE("vehicle programs: bad input is one line and exit code 2", "[examples][bad-input]") {
   TemporaryDirectory scratch;
   const auto refused = [&](const char* program, Strings arguments, const char* why) {
@@ -59,9 +84,19 @@ TEST_CASE("vehicle programs: bad input is one line and exit code 2", "[examples]
     write_text(scratch.path() / "changed.csv", text.replace(text.find(row), row.size(), to));
     return scratch / "changed.csv";
   };
-  const std::string light =
-      changed("metro_trailer.csv", "wheelset mass,1000,", "wheelset mass,-1000,");
   for (const char* program : {"bogie_on_tangent_track", "vehicle_on_curved_track"}) {
+    const auto refused_row = [&](const char* row, const char* to, const char* why) {
+      refused(program, {"--vehicle", changed("manchester_vehicle1.csv", row, to)}, why);
+    };
+    refused_row("carbody mass,32000,kg,", "carbody mass,32,t,",
+                "changed.csv:6: 'carbody mass': unit is 't', but must be 'kg'");
+    refused_row("wheel radius,0.46,m,", "wheel radius,460,mm,",
+                "'wheel radius': unit is 'mm', but must be 'm'");
+    refused_row("anti-roll bar", "anti roll bar",
+                "'anti roll bar stiffness per bogie' is no quantity of a vehicle");
+    refused(program, {"--vehicle", scratch.path().string()}, "is not a readable file");
+    const std::string light =
+        changed("metro_trailer.csv", "wheelset mass,1000,", "wheelset mass,-1000,");
     refused(program, {"--duration", "0"}, "--duration is 0");
     refused(program, {"--speed", "-1"}, "--speed is -1");
     refused(program, {"--wheel", "round"}, "--wheel is 'round'");

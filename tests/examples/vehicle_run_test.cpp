@@ -641,14 +641,21 @@ TEST_CASE("VehicleData: what is missing or wrong is named", "[examples][bad-inpu
     std::ofstream(path) << text;
     return build_vehicle(VehicleData(path.string()), VehicleKind::bogie);
   };
+  const std::string header = "quantity,value,unit,source\n";
   CHECK_THROWS_WITH(with("quantity,value,unit\nwheel radius,0.43,m\n"),
                     Contains("lacks the quantity"));
   CHECK_THROWS_WITH(with("quantity,value,unit\nwheel radius,-0.43,m\n"),
-                    Contains("'wheel radius' is -0.43") && Contains("> 0"));
+                    Contains(":2: 'wheel radius' is -0.43") && Contains("> 0"));
   CHECK_THROWS_WITH(with("quantity,value,unit\nwheel radius,much,m\n"), Contains(":2: "));
   CHECK_THROWS_WITH(with("wheel radius,0.43,m\n"), Contains(":1: the header"));
-  CHECK_THROWS_WITH(with("quantity,value,unit\na,1,m\na,2,m\n"), Contains("given twice"));
+  CHECK_THROWS_WITH(with(header + "wheel radius,1,m\nwheel radius,2,m\n"),
+                    Contains(":3: 'wheel radius' is given twice"));
+  CHECK_THROWS_WITH(with(header + "wheel radius,1,m,unconfirmed\nwheel radius,2,m,confirmed\n"),
+                    Contains(":3: 'wheel radius' is given twice"));
   CHECK_THROWS_WITH(with(""), Contains("no header"));
   std::filesystem::remove(path);
   CHECK_THROWS_WITH(VehicleData("/nowhere.csv"), Contains("cannot open '/nowhere.csv'"));
+  const std::string directory = std::filesystem::temp_directory_path().string();
+  CHECK_THROWS_WITH(VehicleData(directory), Contains("'" + directory + "' is not a readable file"));
+  CHECK_THROWS_AS(data().has("wheel diameter"), std::logic_error);
 }
