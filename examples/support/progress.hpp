@@ -43,7 +43,7 @@ namespace examples {
 
 // What redraws a line of a terminal of 80 columns; what is too long for it is cut.
 [[nodiscard]] inline std::string bar_text(const std::string& line) {
-  return "\r" + line.substr(0, 79) + "\033[K";
+  return std::string("\r").append(line, 0, 79).append("\033[K");
 }
 
 // May be told of from several threads.

@@ -151,7 +151,8 @@ TEST_CASE("three_case_study: a log shows how far it is and what is left", "[exam
   CHECK(examples::progress_text(1, 61.2) == "[####################] 100 %, 1 min 01 s in all");
   // On a terminal it stays within one line, whatever the name, and leaves nothing of the last one.
   CHECK(examples::bar_text("short") == "\rshort\033[K");
-  CHECK(examples::bar_text(std::string(200, 'x')) == "\r" + std::string(79, 'x') + "\033[K");
+  CHECK(examples::bar_text(std::string(200, 'x')) ==
+        std::string("\r").append(79, 'x').append("\033[K"));
   const TemporaryDirectory scratch;
   const auto result = run_program("three_case_study", short_study(scratch / "study", "2"));
   const Strings lines = lines_of(result.error);
