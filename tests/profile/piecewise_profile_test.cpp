@@ -1,6 +1,11 @@
+#include <array>
 #include <limits>
+#include <random>
 #include <vector>
+#include <wheelrail/profile/convex_modification.hpp>
 #include <wheelrail/profile/piecewise_profile.hpp>
+#include <wheelrail/profile/rail_head.hpp>
+#include <wheelrail/profile/s1002.hpp>
 
 #include "support/allocation_counter.hpp"
 #include "support/catch.hpp"
@@ -201,4 +206,64 @@ TEST_CASE("PiecewiseProfile: bit for bit the same for a scalar that converts to 
     CHECK(point.slope.as_double() == expected.slope);
     CHECK(point.second_derivative.as_double() == expected.second_derivative);
   }
+}
+
+namespace {
+
+// Whether the bounds over random intervals hold at points of them, and how tight they are at best.
+template <class P>
+void check_bounds(const P& profile, double widest) {
+  std::mt19937 random(3);
+  const auto share = [&random] { return static_cast<double>(random()) / 4294967296.0; };
+  int tight = 0, intervals = 0;
+  for (int piece = 0; piece < profile.piece_count(); ++piece) {
+    const double begin = profile.joint(piece), end = profile.joint(piece + 1);
+    for (int i = 0; i < 200; ++i) {
+      const double width = std::min(widest, end - begin) * share();
+      const double lower = begin + (end - begin - width) * share();
+      const double upper = std::min(end, lower + width);
+      const auto bounds = profile.derivative_bounds(piece, lower, upper);
+      const auto curvatures = profile.curvature_bounds(piece, lower, upper);
+      double least = 1e300, greatest = -1e300, before = 0;
+      for (int k = 0; k <= 20; ++k) {
+        const double u = lower + (upper - lower) * k / 20;
+        const auto point = profile.evaluate(piece, u);
+        const double second = point.second_derivative;
+        const double slack = 1e-9 * (1 + std::abs(second));
+        REQUIRE(bounds.least_second - slack <= second);
+        REQUIRE(second <= bounds.greatest_second + slack);
+        REQUIRE(curvatures.least - slack <= curvature(point));
+        REQUIRE(curvature(point) <= curvatures.greatest + slack);
+        if (k > 0) {
+          REQUIRE(std::abs(second - before) <=
+                  bounds.greatest_third * (upper - lower) / 20 + slack);
+        }
+        least = std::min(least, second);
+        greatest = std::max(greatest, second);
+        before = second;
+      }
+      ++intervals;
+      tight += bounds.greatest_second - bounds.least_second <= 1.5 * (greatest - least) + 1e-6;
+    }
+  }
+  CHECK(2 * tight > intervals);
+}
+
+}  // namespace
+
+TEST_CASE("derivative_bounds, curvature_bounds: hold over any interval and are tight",
+          "[profile][random]") {
+  STATIC_REQUIRE(HasDerivativeBounds<PiecewiseProfile<double>>);
+  STATIC_REQUIRE(HasDerivativeBounds<RailHead<double>>);
+  STATIC_REQUIRE(HasDerivativeBounds<ConvexModification<PiecewiseProfile<double>>>);
+  check_bounds(s1002<double>(), 0.5e-3);
+  check_bounds(uic50<double>(), 0.5e-3);
+  check_bounds(ConvexModification(s1002<double>()), 0.5e-3);
+  // By hand: x^4 over [1, 3] about 2: f'' = 12 (4 + 4 t + t^2), |t| <= 1; f''' = 24 (2 + t).
+  const std::array<double, 5> fourth{0, 0, 0, 0, 1};
+  const auto piece = ProfilePiece<double>::polynomial(0, 4, 0, 1, fourth);
+  const auto bounds = piece.derivative_bounds(1, 3);
+  CHECK(bounds.greatest_second == Approx(12 * 9));
+  CHECK(bounds.least_second == Approx(12 * -1.0));
+  CHECK(bounds.greatest_third == Approx(24 * 3));
 }

@@ -76,6 +76,12 @@ TEST_CASE("RailFrame: directions there and back again are the same", "[surface]"
 TEST_CASE("Rail: knows whether its profile is convex, and the least curvature", "[surface]") {
   const Rail rail(rail_60e1<double>());
   CHECK(rail.is_convex());
+  CHECK(rail.is_proved_convex());
+  CHECK(rail.greatest_curvature(-0.001, 0.002) == Approx(1 / 0.3).epsilon(1e-12));
+  CHECK(rail.greatest_curvature(0.002, -0.015) == Approx(1 / 0.08).epsilon(1e-12));
+  CHECK(rail.greatest_curvature(-0.030, 0.002) == Approx(1 / 0.013).epsilon(1e-12));
+  CHECK(rail.checksum() != Rail(uic50<double>()).checksum());
+  CHECK(rail.checksum() == Rail(rail_60e1<double>()).checksum());
   CHECK(rail.least_curvature(-0.001, 0.002) == Approx(1 / 0.3).epsilon(1e-12));
   CHECK(rail.least_curvature(-0.02, -0.015) == Approx(1 / 0.08).epsilon(1e-12));
   CHECK(rail.least_curvature(-0.030, 0.002) == Approx(1 / 0.3).epsilon(1e-12));

@@ -22,7 +22,14 @@ double least_slack(const P& profile, const StripTree<double>& tree, int samples)
       const double bound = node.point.value + node.point.slope * (u - node.centre) + node.rise;
       least = std::min(least, bound - profile.evaluate(u).value);
       CHECK(std::abs(u - node.centre) <= node.half_width * (1 + 1e-12));
-      if (profile.evaluate(u).second_derivative > node.bend * (1 + 1e-3)) least = -1;
+      const auto point = profile.evaluate(u);
+      const auto& shape = node.shape;
+      const double slack = 1e-9 * shape.second;
+      CHECK(point.second_derivative <= shape.greatest_second + slack);
+      CHECK(point.second_derivative >= shape.least_second - slack);
+      CHECK(std::abs(point.second_derivative) <= shape.second + slack);
+      CHECK(std::abs(point.slope) <= shape.steepest * (1 + 1e-9));
+      CHECK(std::abs(point.slope) >= shape.flattest - 1e-9);
     }
   }
   return least;
@@ -73,6 +80,34 @@ TEST_CASE("StripTree: no profile rises above its nodes' bounds", "[surface][rand
     CHECK(least_slack(real, StripTree<double>(real, 0.43, spacing), 50) > -1e-12);
     CHECK(least_slack(convex, StripTree<double>(convex, 0.43, spacing), 50) > -1e-12);
   }
+}
+
+TEST_CASE("StripTree: blocks cover every interval once, each in one piece", "[surface]") {
+  const auto profile = s1002<double>();
+  const StripTree<double> tree(profile, 0.43, 0.5e-3);
+  CHECK(tree.is_proved());
+  int reached = -1, slots = 0, blocks = 0;
+  for (const auto& node : tree.nodes()) {
+    if (node.slot >= 0) CHECK(node.slot == slots++);
+    if (!node.is_block) continue;
+    ++blocks;
+    CHECK((node.first == reached || node.first == reached + 1));
+    reached = node.last;
+    const auto& strips = tree.strips();
+    CHECK(strips[static_cast<std::size_t>(node.first)].piece ==
+          strips[static_cast<std::size_t>(node.last)].piece);
+    CHECK(node.last - node.first <= StripTree<double>::block_strips);
+  }
+  CHECK(reached == static_cast<int>(tree.strips().size()) - 1);
+  CHECK(slots == tree.slot_count());
+  CHECK(blocks > profile.piece_count());
+  double greatest = 0;
+  for (int i = 0; i <= 20000; ++i) {
+    const double u = profile.lower() + (profile.upper() - profile.lower()) * i / 20000;
+    greatest = std::max(greatest, 0.43 + profile.evaluate(u).value);
+  }
+  CHECK(tree.greatest_radius() >= greatest);
+  CHECK(tree.greatest_radius() < greatest + 1e-3);
 }
 
 TEST_CASE("StripTree: a spacing out of range is named", "[surface][bad-input]") {

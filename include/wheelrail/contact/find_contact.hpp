@@ -1,19 +1,35 @@
 #pragma once
 /// @file
-/// The search for all patches (62): strips that a bound keeps from the rail are left out, the
-/// wheel's contact locus is walked over the others, every local extremum of the penetration between
-/// two strips is solved for, and each run of penetrating strips is a zone whose deepest point is a
-/// patch. May include: core, numerics, profile, surface.
+/// The search for all patches (62), with a proof that none was missed. Parts of the wheel that lie
+/// above a tangent of the rail are left out; over the others the wheel's contact locus is walked,
+/// the penetration's extrema are solved for, and each run of penetrating strips is a zone whose
+/// deepest point is a patch. May include: core, numerics, profile, surface.
 ///
-/// The bound: a convex rail lies under each of its tangent planes. So a point of the wheel is no
-/// deeper than under the plane with the normal n at any point P of the rail; the strip at u, a
-/// circle of radius R(u) = R0 + F(u) about the axle's point o + u a, is no deeper than
-///   g(u) = -n.(o - P) - u n.a + R(u) sqrt(1 - (n.a)^2),
-/// whatever the yaw, and F over an interval is bounded by StripTree.
+/// What is proved (ContactResult::is_proved), for a locally straight, convex rail and profiles with
+/// derivative bounds (HasDerivativeBounds), but for rounding:
+///
+/// 1. A part above a tangent does not touch. The rail lies under its tangent plane with the normal n
+///    at P; the strip at u, a circle of radius R(u) = R0 + F(u) about the axle's point o + u a, is no
+///    deeper than g(u) = -n.(o - P) - u n.a + R(u) sqrt(1 - (n.a)^2) under it, whatever the yaw, and
+///    StripTree bounds F over an interval.
+/// 2. The penetration p along the locus L(u) is the least depth under all tangents, each of which
+///    changes with -n.L'': so p'' <= max(-n.L''), which bounds p and p' between two strips. Where p
+///    stays below the threshold, or p' keeps its sign, nothing is hidden between them.
+/// 3. Where the rail's curvature is at least k it lies, near each foot, inside a circle of radius 1/k:
+///    p'' <= -n.L'' - (|L'|^2 - p'^2) k / (1 + k gap). Where that is negative p has one maximum at
+///    most. Where |p'| < |L'| the foot moves one way, from the foot of one strip to the other's.
+/// 4. With k the greatest curvature, p'' >= -n.L'' - |L'|^2 k / (1 - k p): where that is positive p
+///    has one minimum at most.
+/// 5. Strips of which none of this can be said are divided until it can, or until p varies by less
+///    than the depth tolerance between them.
+///
+/// L' and L'' follow from (57) and (59) with t = tan(yaw): L'' = -F'' (0, cos s_w) and terms in t^2
+/// times F', F'' and F'''; those with F''' lie along L' but for t^4.
 
 #include <algorithm>
 #include <array>
 #include <wheelrail/contact/patch.hpp>
+#include <wheelrail/contact/search_memory.hpp>
 
 namespace wheelrail {
 
@@ -27,6 +43,12 @@ struct SearchOptions {
   /// to its surface, a point inside a rail has one foot on it. Must be below the least radius of
   /// curvature of the rail (13 mm at the corners of the standard heads).
   T maximum_penetration = constant<T>(0.01L);
+  /// Where the penetration varies by at most depth_tolerance [m], a part of the profile is not
+  /// divided further: zones shallower than this may be missing, or be one where they are two.
+  T depth_tolerance = constant<T>(1e-9L);
+  /// Parts are not divided any more once evaluations > maximum_evaluations; `is_proved` is false
+  /// then where the search depended on it.
+  int maximum_evaluations = 4000;
 };
 
 namespace detail {
@@ -38,11 +60,13 @@ class StripWalk {
   using T = typename P::Scalar;
 
   StripWalk(const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<T>& placement,
-            const SearchOptions<T>& options)
+            const SearchOptions<T>& options, SearchMemory<T>* memory)
       : wheel_(wheel),
         rail_(rail),
         placement_(placement),
         options_(options),
+        can_prove_(wheel.strips().is_proved() && rail.is_proved_convex()),
+        parts_(memory != nullptr ? &memory->parts(rail) : nullptr),
         axle_lateral_(placement.cos_roll * placement.cos_yaw),
         axle_up_(placement.sin_roll * placement.cos_yaw),
         margin_(T(64) * epsilon<T>() * wheel.nominal_radius()) {
@@ -52,21 +76,8 @@ class StripWalk {
   }
 
   [[nodiscard]] ContactResult<T> run() {
-    const auto& nodes = wheel_.strips().nodes();
-    int node = 0;
-    while (node < static_cast<int>(nodes.size())) {
-      const StripNode<T>& at = nodes[static_cast<std::size_t>(node)];
-      if (cannot_penetrate(at)) {
-        node = at.skip;
-        continue;
-      }
-      ++node;
-      if (at.skip == node) {
-        visit_interval(at.first, at.last);
-      } else if (visit_if_concave(at)) {
-        node = at.skip;
-      }
-    }
+    result_.is_proved = can_prove_;
+    static_cast<void>(search(0));
     leave_zone();
     return result_;
   }
@@ -79,76 +90,240 @@ class StripWalk {
     T rail_lateral{};
     T penetration{};
     T slope{};
-    T slope_rate{};         // d slope / d wheel_lateral [1/m], without terms of yaw squared
-    T second_derivative{};  // of the wheel's profile [1/m]
+    T slope_rate{};  // d slope / d wheel_lateral [1/m], without terms of yaw squared
+    RailTangent<T> tangent;
     int piece = -1;
     bool exists = false;
   };
 
-  // A tangent plane of the rail, as the bound of this file's head needs it.
+  // A tangent of the rail, as the bound of this file's head needs it.
   struct Plane {
     T along_axle{};   // n.a
     T across_axle{};  // sqrt(1 - (n.a)^2)
     T height{};       // n.(P - o) [m]
+    RailTangent<T> tangent;
   };
 
-  // g of this file's head, over the strips of a node.
-  [[nodiscard]] T bound_under(const Plane& plane, const StripNode<T>& node) const {
-    return plane.height - node.centre * plane.along_axle +
-           wheel_.radius(node.point) * plane.across_axle +
-           magnitude(T(node.point.slope * plane.across_axle - plane.along_axle)) * node.half_width +
-           node.rise * plane.across_axle;
+  [[nodiscard]] Plane plane(const RailTangent<T>& tangent) const {
+    using std::sqrt;
+    const Vector2<T>& normal = tangent.normal_rail;
+    const T along = normal.x() * axle_lateral_ + normal.y() * axle_up_;
+    return {along, sqrt(T(T(1) - along * along)),
+            tangent.height - normal.x() * placement_.position_rail.y() -
+                normal.y() * placement_.position_rail.z(),
+            tangent};
   }
 
-  // Whether a node lies above a tangent plane of the rail: above one of the last ones that were
-  // looked at, or else above the one under the node's centre.
-  [[nodiscard]] bool cannot_penetrate(const StripNode<T>& node) {
-    using std::sqrt;
+  [[nodiscard]] static RailTangent<T> tangent_at(const ClosestPoint<T>& foot,
+                                                 const LocusPoint<T>& locus) {
+    return {foot.normal_rail, foot.penetration + foot.normal_rail.x() * locus.lateral +
+                                  foot.normal_rail.y() * locus.up};
+  }
+
+  // Whether g of this file's head is below the threshold over the strips of a node.
+  [[nodiscard]] bool is_above(const Plane& plane, const StripNode<T>& node) const {
+    const T bound =
+        plane.height - node.centre * plane.along_axle +
+        wheel_.radius(node.point) * plane.across_axle +
+        magnitude(T(node.point.slope * plane.across_axle - plane.along_axle)) * node.half_width +
+        node.rise * plane.across_axle;
+    return bound < options_.penetration_threshold - margin_;
+  }
+
+  // Searches a node down to blocks and remembers what of it was excluded. Returns whether any of it
+  // was not.
+  [[nodiscard]] bool search(int index) {
+    const auto& nodes = wheel_.strips().nodes();
+    const StripNode<T>& node = nodes[static_cast<std::size_t>(index)];
+    PartMemory<T>* known =
+        parts_ != nullptr ? &(*parts_)[static_cast<std::size_t>(node.slot)] : nullptr;
+    // What was open is likely to be so again: not even looked at, its blocks will be.
+    const bool was_open = !node.is_block && known != nullptr && known->is_open;
+    if (!was_open && cannot_penetrate(node, known)) return false;
+    bool is_open = false;
+    if (node.is_block) {
+      const int reached = reached_;
+      visit_block(index);
+      is_open = reached_ != reached;
+    } else {
+      const bool first = search(index + 1);
+      const bool second = search(nodes[static_cast<std::size_t>(index + 1)].skip);
+      is_open = first || second;
+    }
+    if (known != nullptr) known->is_open = is_open;
+    return is_open;
+  }
+
+  // Whether a node down to a block lies above a tangent of the rail: above that which excluded it
+  // last, above one of the last ones that were looked at, or above the one under its centre.
+  [[nodiscard]] bool cannot_penetrate(const StripNode<T>& node, PartMemory<T>* known) {
     if (!rail_.is_convex()) return false;
-    const T limit = options_.penetration_threshold - margin_;
+    const bool is_known = known != nullptr && !(known->tangent.normal_rail.y() == T(0));
+    if (is_known && is_above(plane(known->tangent), node)) return true;
+    const auto excluded_by = [&](const Plane& at) {
+      if (!is_above(at, node)) return false;
+      if (known != nullptr) known->tangent = at.tangent;
+      return true;
+    };
     for (std::size_t i = 0; i < std::min(planes_seen_, planes_.size()); ++i) {
-      if (bound_under(planes_[i], node) < limit) return true;
+      if (excluded_by(planes_[i])) return true;
     }
     ++result_.evaluations;
-    centre_curvature_ = T(0);
     const LocusPoint<T> locus = locus_point(wheel_, placement_, node.centre, node.point);
     if (!locus.exists) return false;
     const ClosestPoint<T> foot = rail_foot(rail_.profile(), locus.lateral, locus.up);
-    centre_curvature_ = foot.curvature;
-    Plane& plane = planes_[planes_seen_++ % planes_.size()];
-    plane.along_axle = foot.normal_rail.x() * axle_lateral_ + foot.normal_rail.y() * axle_up_;
-    plane.across_axle = sqrt(T(T(1) - plane.along_axle * plane.along_axle));
-    plane.height = foot.penetration +
-                   foot.normal_rail.x() * (locus.lateral - placement_.position_rail.y()) +
-                   foot.normal_rail.y() * (locus.up - placement_.position_rail.z());
-    return bound_under(plane, node) < limit;
+    Plane& latest = planes_[planes_seen_++ % planes_.size()];
+    latest = plane(tangent_at(foot, locus));
+    return excluded_by(latest);
   }
 
-  // Visits a node as one interval if the penetration is concave over it, so that it has one maximum
-  // at most: where the rail is more curved than the wheel is hollow.
-  [[nodiscard]] bool visit_if_concave(const StripNode<T>& node) {
-    const auto& strips = wheel_.strips().strips();
-    const auto& first = strips[static_cast<std::size_t>(node.first)];
-    const auto& last = strips[static_cast<std::size_t>(node.last)];
-    if (!rail_.is_convex() || first.piece != last.piece) return false;
-    const T& tan_yaw = placement_.tan_yaw;
-    const T wheel_bend = node.bend + tan_yaw * tan_yaw * node.yaw_bend;
-    if (!(wheel_bend < constant<T>(0.9L) * centre_curvature_)) return false;
-    const Strip right = strip(last.piece, last.lateral, last.point);
-    const Strip left =
-        node.first == reached_ ? last_ : strip(first.piece, first.lateral, first.point);
-    if (!left.exists || !right.exists) return false;
+  // What is known of the penetration between two strips of one piece.
+  enum class Verdict {
+    excluded,  // it stays below the threshold
+    simple,    // it has one extremum at most inside
+    open       // nothing
+  };
+  struct Judgement {
+    Verdict verdict = Verdict::open;
+    T variation{};           // by which it varies at most [m]
+    bool is_bounded = true;  // false where the yaw is too great for the bounds as they are
+  };
+
+  // By 2, 3 and 4 of this file's head. `shape` holds between the strips.
+  [[nodiscard]] Judgement judge(const Strip& left, const Strip& right,
+                                const ShapeBounds<T>& shape) const {
+    using std::sqrt;
+    const Judgement unknown{Verdict::open, wheel_.nominal_radius(), left.exists || right.exists};
+    if (!rail_.is_convex() || !left.exists || !right.exists) return unknown;
+    const T width = right.wheel_lateral - left.wheel_lateral;
+    const T yaw = square(placement_.tan_yaw);
+    const T slope = shape.steepest, slope_squared = square(slope);
+    const T radius = wheel_.strips().greatest_radius();
+    const T hollow = max(T(0), shape.greatest_second);
+    const T sine_squared = yaw * slope_squared;
+    if (!(sine_squared + yaw * (slope_squared + radius * hollow) < constant<T>(0.5L))) {
+      return {Verdict::open, wheel_.nominal_radius(), false};
+    }
+    const T cosine = sqrt(T(T(1) - sine_squared));
+    const T twist = yaw * radius * shape.third / cosine;
+    if (!(twist * width < constant<T>(0.5L))) return unknown;
+    const T by_yaw = yaw * (slope * shape.second * (T(3) + T(2) * slope / cosine) +
+                            twist * (slope_squared * (T(2) + slope) +
+                                     radius * shape.second * (T(1) + slope / cosine)));
+    const T steepest =
+        (max(magnitude(left.slope), magnitude(right.slope)) + (hollow + by_yaw) * width) /
+        (T(1) - twist * width);
+    const T bend = hollow + by_yaw + twist * steepest;
+    const T variation = steepest * width;
+    if (!may_penetrate(left, right, bend)) return {Verdict::excluded, variation};
+    if (bend * width < right.slope || bend * width < -left.slope) {
+      return {Verdict::simple, variation};
+    }
+    const T speed_squared = T(1) + square(shape.flattest) -
+                            yaw * (T(1) + T(2) * (slope_squared + radius * hollow) +
+                                   square(slope_squared) + T(2) * radius * slope_squared * hollow);
+    const T sliding_squared = speed_squared - square(steepest);
+    if (!(T(0) < sliding_squared)) return {Verdict::open, variation};
+    // So the foot moves one way, from the left strip's to the right one's, and so does the normal.
+    const Vector2<T>& one = left.tangent.normal_rail;
+    const Vector2<T>& other = right.tangent.normal_rail;
+    const bool passes_top = (one.x() < T(0)) != (other.x() < T(0));
+    const T least_up = min(one.y(), other.y());
+    const T greatest_up = passes_top ? T(1) : max(one.y(), other.y());
+    const T wheel_bend =
+        bend - hollow +
+        shape.greatest_second * (shape.greatest_second < T(0) ? T(least_up * cosine) : greatest_up);
     const T curvature = rail_.least_curvature(left.rail_lateral, right.rail_lateral);
-    const T gap = max(T(0), T(-min(left.penetration, right.penetration)));
-    const T sliding = T(1) - constant<T>(1.2L) * max(square(left.slope), square(right.slope));
-    if (!(wheel_bend < constant<T>(0.9L) * sliding * curvature / (T(1) + curvature * gap))) {
-      return false;
+    const T gap = max(T(0), T(variation - min(left.penetration, right.penetration)));
+    const T greatest_bend =
+        max(T(0), T(wheel_bend - sliding_squared * curvature / (T(1) + curvature * gap)));
+    if (greatest_bend * width < right.slope || greatest_bend * width < -left.slope ||
+        greatest_bend == T(0)) {
+      return {Verdict::simple, variation};
+    }
+    if (!may_penetrate(left, right, greatest_bend)) return {Verdict::excluded, variation};
+    // Convex, where the wheel is more hollow than the rail is curved?
+    const T stretch = T(1) + yaw * radius * shape.second / square(cosine);
+    const T greatest_speed = (T(1) + slope_squared) * square(stretch);
+    const T deepest = max(T(0), T(max(left.penetration, right.penetration) + variation));
+    const T greatest_curvature = rail_.greatest_curvature(left.rail_lateral, right.rail_lateral);
+    const T wheel_bend_least =
+        least_up * cosine * shape.least_second - by_yaw - twist * steepest -
+        T(2) * yaw * radius * square(shape.second) / (square(cosine) * cosine);
+    const bool is_convex = greatest_curvature * deepest < T(1) &&
+                           greatest_speed * greatest_curvature <
+                               wheel_bend_least * (T(1) - greatest_curvature * deepest);
+    return {is_convex ? Verdict::simple : Verdict::open, variation};
+  }
+
+  // Strips at both ends of a block, then what lies between them.
+  void visit_block(int index) {
+    const StripNode<T>& node = wheel_.strips().nodes()[static_cast<std::size_t>(index)];
+    const Strip left = node.first == edge_index_ ? edge_ : strip_of_wheel(node.first);
+    edge_ = strip_of_wheel(node.last);
+    edge_index_ = node.last;
+    visit_node(index, left, Strip(edge_));
+  }
+
+  // A node inside a block, or the block, with the strips at its ends.
+  void visit_node(int index, const Strip& left, const Strip& right) {
+    const auto& nodes = wheel_.strips().nodes();
+    const StripNode<T>& node = nodes[static_cast<std::size_t>(index)];
+    const auto lies_above = [&](const Strip& strip) {
+      return strip.exists && is_above(plane(strip.tangent), node);
+    };
+    if (!node.is_block && rail_.is_convex() && (lies_above(left) || lies_above(right))) return;
+    const Judgement judgement = judge(left, right, node.shape);
+    if (judgement.verdict == Verdict::excluded) return;
+    const bool is_leaf = node.skip == index + 1;
+    if (judgement.verdict == Verdict::open && !is_leaf) {
+      const StripNode<T>& child = nodes[static_cast<std::size_t>(index + 1)];
+      const Strip middle = strip_of_wheel(child.last);
+      visit_node(index + 1, left, middle);
+      visit_node(child.skip, middle, right);
+      return;
     }
     enter(node.first, left);
     reached_ = node.last;
-    visit_extremum(last_, right);
+    if (judgement.verdict == Verdict::simple) {
+      visit_extremum(left, right);
+    } else {
+      visit_open(left, right, judgement, 0);
+    }
     visit(right);
-    return true;
+  }
+
+  // Between two strips, the left one visited, of which nothing is known: they are divided until it
+  // is, or too little to matter. Where that proves nothing, they are taken to have one extremum.
+  void visit_open(const Strip& left, const Strip& right, const Judgement& judgement, int depth) {
+    // What is unbounded becomes bounded soon, or never.
+    const int maximum_depth = judgement.is_bounded ? 16 : 6;
+    const bool is_small = judgement.variation < options_.depth_tolerance;
+    if (!is_small && can_prove_ && depth < maximum_depth &&
+        result_.evaluations < options_.maximum_evaluations) {
+      const T half_width = (right.wheel_lateral - left.wheel_lateral) / T(2);
+      const Strip middle = strip(left.piece, T(left.wheel_lateral + half_width));
+      visit_part(left, middle, depth + 1);
+      visit(middle);
+      visit_part(middle, right, depth + 1);
+      return;
+    }
+    result_.is_proved = result_.is_proved && is_small;
+    if (depth == 0) visit_rail_joints(right);
+    visit_extremum(last_, right);
+  }
+
+  void visit_part(const Strip& left, const Strip& right, int depth) {
+    const Judgement judgement =
+        judge(left, right,
+              shape_bounds(wheel_.profile(), left.piece, left.wheel_lateral, right.wheel_lateral));
+    if (judgement.verdict == Verdict::simple) visit_extremum(left, right);
+    if (judgement.verdict == Verdict::open) visit_open(left, right, judgement, depth);
+  }
+
+  [[nodiscard]] Strip strip_of_wheel(int index) {
+    const auto& at = wheel_.strips().strips()[static_cast<std::size_t>(index)];
+    return strip(at.piece, at.lateral, at.point);
   }
 
   // Begins at the strip `first` of the wheel unless the walk is there already.
@@ -159,19 +334,6 @@ class StripWalk {
         reached_ >= 0 && first == reached_ + 1 && last_.wheel_lateral == strip_there.wheel_lateral;
     if (!neighbours) leave_zone();
     visit(strip_there);
-  }
-
-  // The interval between two neighbouring strips of the wheel.
-  void visit_interval(int first, int last) {
-    const auto& strips = wheel_.strips().strips();
-    const auto& left = strips[static_cast<std::size_t>(first)];
-    const auto& right = strips[static_cast<std::size_t>(last)];
-    if (first != reached_) enter(first, strip(left.piece, left.lateral, left.point));
-    reached_ = last;
-    const Strip next = strip(right.piece, right.lateral, right.point);
-    visit_rail_joints(next);
-    visit_extremum(last_, next);
-    visit(next);
   }
 
   [[nodiscard]] Strip strip(int piece, const T& u) {
@@ -187,7 +349,7 @@ class StripWalk {
     if (!locus.exists) return at;
     const ClosestPoint<T> foot = rail_foot(rail_.profile(), locus.lateral, locus.up);
     at.rail_lateral = foot.lateral;
-    at.second_derivative = locus.profile.second_derivative;
+    at.tangent = tangent_at(foot, locus);
     at.penetration = foot.penetration;
     // The foot moves along the surface, so only the locus' own motion across it counts.
     at.slope = -(foot.normal_rail.x() * locus.lateral_rate + foot.normal_rail.y() * locus.up_rate);
@@ -206,16 +368,14 @@ class StripWalk {
     return at.exists && options_.penetration_threshold < at.penetration;
   }
 
-  // Whether the penetration can pass the threshold between two strips of one piece. Over a convex
-  // rail it stays under its tangent plus what the wheel's own second derivative adds: the rail
-  // falls away from the tangent at the foot.
-  [[nodiscard]] bool may_penetrate(const Strip& left, const Strip& right) const {
+  // Whether the penetration can pass the threshold between two strips, its second derivative being
+  // at most `bend`.
+  [[nodiscard]] bool may_penetrate(const Strip& left, const Strip& right, const T& bend) const {
     const T width = right.wheel_lateral - left.wheel_lateral;
-    const T bulge =
-        max(T(0), max(left.second_derivative, right.second_derivative)) * width * width / T(2);
+    const T bulge = bend * width * width / T(2);
     const T from_left = left.penetration + max(T(0), left.slope) * width + bulge;
     const T from_right = right.penetration + max(T(0), T(-right.slope)) * width + bulge;
-    return options_.penetration_threshold < min(from_left, from_right);
+    return options_.penetration_threshold - margin_ < min(from_left, from_right);
   }
 
   // Where the foot passes a joint of the rail between the last strip and the next, the
@@ -223,7 +383,7 @@ class StripWalk {
   // put there.
   void visit_rail_joints(const Strip& next) {
     const R& rail = rail_.profile();
-    if (!last_.exists || !next.exists || !may_penetrate(last_, next)) return;
+    if (!last_.exists || !next.exists) return;
     int piece = piece_of(rail, last_.rail_lateral);
     const int end = piece_of(rail, next.rail_lateral);
     while (piece != end) {
@@ -287,7 +447,6 @@ class StripWalk {
     const bool is_maximum = T(0) < left.slope && right.slope < T(0);
     const bool is_minimum = left.slope < T(0) && T(0) < right.slope;
     if (!is_maximum && !is_minimum) return;
-    if (is_maximum && !may_penetrate(left, right)) return;
     if (is_minimum && !(penetrates(left) && penetrates(right))) return;
     const T secant = left.slope / (left.slope - right.slope);
     const Cubic cubic(left, right, options_.penetration_threshold);
@@ -404,9 +563,13 @@ class StripWalk {
   const Rail<R>& rail_;
   const WheelPlacement<T>& placement_;
   const SearchOptions<T>& options_;
-  T axle_lateral_;  // of the axle's direction, rail frame
+  bool can_prove_;                     // given that nothing is too steep or divided too often
+  std::vector<PartMemory<T>>* parts_;  // for each slot; null: nothing is remembered
+  T axle_lateral_;                     // of the axle's direction, rail frame
   T axle_up_;
-  std::array<Plane, 6> planes_;
+  std::array<Plane, 4> planes_;
+  Strip edge_;                   // at the last block's end,
+  int edge_index_ = -1;          // which is this strip of the wheel
   std::size_t planes_seen_ = 0;  // planes_ has the last ones
   T centre_curvature_{};         // of the rail under the centre of the last node [1/m]
   T margin_;                     // rounding of the bound and of the penetration [m]
@@ -422,6 +585,23 @@ class StripWalk {
 
 }  // namespace detail
 
+namespace detail {
+
+template <Profile P, Profile R>
+[[nodiscard]] ContactResult<typename P::Scalar> find_contact(
+    const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
+    const SearchOptions<typename P::Scalar>& options, SearchMemory<typename P::Scalar>* memory) {
+  using T = typename P::Scalar;
+  if (!is_finite_placement(placement) || !is_finite(options.penetration_threshold)) {
+    ContactResult<T> result;
+    result.status = SearchStatus::not_finite;
+    return result;
+  }
+  return StripWalk<P, R>(wheel, rail, placement, options, memory).run();
+}
+
+}  // namespace detail
+
 /// All patches between @p wheel and @p rail at @p placement.
 /// @return one patch for each zone of the wheel profile whose locus lies under the rail's surface, in
 ///   the order of wheel_lateral; wheel_lateral, penetration and the zone's ends are solved for to
@@ -433,13 +613,18 @@ template <Profile P, Profile R>
 [[nodiscard]] ContactResult<typename P::Scalar> find_contact(
     const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
     const SearchOptions<typename P::Scalar>& options = {}) {
-  using T = typename P::Scalar;
-  if (!detail::is_finite_placement(placement) || !is_finite(options.penetration_threshold)) {
-    ContactResult<T> result;
-    result.status = SearchStatus::not_finite;
-    return result;
-  }
-  return detail::StripWalk<P, R>(wheel, rail, placement, options).run();
+  return detail::find_contact<P, R>(wheel, rail, placement, options, nullptr);
+}
+
+/// The same with a warm start: the same patches to the last bit, whatever @p memory holds, in less
+/// time where the wheel stands nearly as in the search before.
+/// @param memory of this wheel on this rail; one search at a time may use it.
+template <Profile P, Profile R>
+[[nodiscard]] ContactResult<typename P::Scalar> find_contact(
+    const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
+    SearchMemory<typename P::Scalar>& memory,
+    const SearchOptions<typename P::Scalar>& options = {}) {
+  return detail::find_contact<P, R>(wheel, rail, placement, options, &memory);
 }
 
 }  // namespace wheelrail

@@ -71,6 +71,9 @@ struct ContactResult {
   FixedList<Patch<T>, maximum_patches> patches;
   SearchStatus status = SearchStatus::complete;
   int evaluations = 0;  ///< strips whose penetration was computed, and Newton systems solved
+  /// No zone deeper than the depth tolerance that the search was given is missing: see
+  /// find_contact.hpp for what is proved, and from what.
+  bool is_proved = false;
 };
 
 namespace detail {

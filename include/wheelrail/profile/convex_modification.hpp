@@ -52,6 +52,18 @@ class ConvexModification {
     if (at.original_piece >= 0) return original_.evaluate(at.original_piece, lateral);
     return {at.value + at.slope * (lateral - at.lateral), at.slope, T(0)};
   }
+  /// @pre as for evaluate, lower <= upper
+  [[nodiscard]] DerivativeBounds<T> derivative_bounds(
+      int piece, const T& lower, const T& upper) const requires HasDerivativeBounds<P> {
+    const int original = pieces_[static_cast<std::size_t>(piece)].original_piece;
+    return original < 0 ? DerivativeBounds<T>{}
+                        : original_.derivative_bounds(original, lower, upper);
+  }
+  [[nodiscard]] CurvatureBounds<T> curvature_bounds(
+      int piece, const T& lower, const T& upper) const requires HasDerivativeBounds<P> {
+    const int original = pieces_[static_cast<std::size_t>(piece)].original_piece;
+    return original < 0 ? CurvatureBounds<T>{} : original_.curvature_bounds(original, lower, upper);
+  }
 
  private:
   // A piece of the original (original_piece >= 0) or a straight line through (lateral, value).

@@ -93,7 +93,74 @@ class ProfilePiece {
     return {value, slope * inverse_scale_, T(2) * half_second * inverse_scale_ * inverse_scale_};
   }
 
+  /// As HasDerivativeBounds has it: an arc's derivatives grow away from its middle, a polynomial's
+  /// Taylor series about the middle of the interval ends.
+  /// @pre lower <= upper, for an arc both inside its circle.
+  [[nodiscard]] DerivativeBounds<T> derivative_bounds(const T& lower, const T& upper) const {
+    return is_arc_ ? arc_bounds(lower, upper) : polynomial_bounds(lower, upper);
+  }
+
+  /// As HasDerivativeBounds has it; an arc has one curvature.
+  [[nodiscard]] CurvatureBounds<T> curvature_bounds(const T& lower, const T& upper) const {
+    using std::sqrt;
+    if (is_arc_) {
+      const T own = sign_ / T(sqrt(coefficients_[1]));
+      return {own, own};
+    }
+    const DerivativeBounds<T> bounds = polynomial_bounds(lower, upper);
+    const T half_width = (upper - lower) / T(2);
+    const T slope = detail::magnitude(evaluate(lower + half_width).slope);
+    const T change = half_width * detail::max(detail::magnitude(bounds.least_second),
+                                              detail::magnitude(bounds.greatest_second));
+    const auto bent = [](const T& second, const T& at_slope) {
+      const T squared_length = T(1) + at_slope * at_slope;
+      return -second / (squared_length * T(sqrt(squared_length)));
+    };
+    const T steep = slope + change, flat = detail::max(T(0), T(slope - change));
+    // What is divided by most is least where the profile is convex, greatest where it is concave.
+    return {bent(bounds.greatest_second, bounds.greatest_second < T(0) ? steep : flat),
+            bent(bounds.least_second, bounds.least_second < T(0) ? flat : steep)};
+  }
+
  private:
+  [[nodiscard]] DerivativeBounds<T> arc_bounds(const T& lower, const T& upper) const {
+    using std::sqrt;
+    const T left = lower - origin_, right = upper - origin_;
+    const T far = detail::max(detail::magnitude(left), detail::magnitude(right));
+    const T near = T(0) < left ? left : (right < T(0) ? T(-right) : T(0));
+    const T& squared_radius = coefficients_[1];
+    // |f''| = R^2 / h^3 and |f'''| = 3 R^2 |x| / h^5, h = sqrt(R^2 - x^2)
+    const T far_squared = squared_radius - far * far;
+    const T near_squared = squared_radius - near * near;
+    const T most = squared_radius / (far_squared * T(sqrt(far_squared)));
+    const T least = squared_radius / (near_squared * T(sqrt(near_squared)));
+    const T third = T(3) * most * far / far_squared;
+    return T(0) < sign_ ? DerivativeBounds<T>{-most, -least, third}
+                        : DerivativeBounds<T>{least, most, third};
+  }
+
+  [[nodiscard]] DerivativeBounds<T> polynomial_bounds(const T& lower, const T& upper) const {
+    const T middle = (lower + (upper - lower) / T(2) - origin_) * inverse_scale_;
+    const T reach = (upper - lower) / T(2) * inverse_scale_;
+    // Taylor's coefficients about the middle, by repeated synthetic division.
+    auto taylor = coefficients_;
+    for (int first = 0; first < degree_; ++first) {
+      for (int k = degree_ - 1; k >= first; --k) {
+        taylor[static_cast<std::size_t>(k)] += middle * taylor[static_cast<std::size_t>(k + 1)];
+      }
+    }
+    T second_spread = T(0), third = T(0);
+    for (int k = degree_; k >= 3; --k) {
+      const T size = detail::magnitude(taylor[static_cast<std::size_t>(k)]);
+      second_spread = (second_spread + T(k * (k - 1)) * size) * reach;
+      third = third * reach + T(k * (k - 1) * (k - 2)) * size;
+    }
+    const T second = degree_ < 2 ? T(0) : T(T(2) * taylor[2]);
+    const T unit = inverse_scale_ * inverse_scale_;
+    return {(second - second_spread) * unit, (second + second_spread) * unit,
+            third * unit * inverse_scale_};
+  }
+
   ProfilePiece(const T& lower, const T& upper) : lower_(lower), upper_(upper) {
     detail::require_finite("profile piece: lower end", lower);
     detail::require_finite("profile piece: upper end", upper);
@@ -147,6 +214,15 @@ class PiecewiseProfile {
   /// @pre 0 <= piece < piece_count(), lateral in that piece
   [[nodiscard]] ProfilePoint<T> evaluate(int piece, const T& lateral) const {
     return pieces_[static_cast<std::size_t>(piece)].evaluate(lateral);
+  }
+  /// @pre 0 <= piece < piece_count(), lower <= upper in that piece
+  [[nodiscard]] DerivativeBounds<T> derivative_bounds(int piece, const T& lower,
+                                                      const T& upper) const {
+    return pieces_[static_cast<std::size_t>(piece)].derivative_bounds(lower, upper);
+  }
+  [[nodiscard]] CurvatureBounds<T> curvature_bounds(int piece, const T& lower,
+                                                    const T& upper) const {
+    return pieces_[static_cast<std::size_t>(piece)].curvature_bounds(lower, upper);
   }
 
  private:

@@ -33,6 +33,31 @@ concept Profile = Real<typename P::Scalar> &&
   { profile.evaluate(piece, lateral) } -> std::same_as<ProfilePoint<typename P::Scalar>>;
 };
 
+/// What the derivatives of a profile keep within over an interval.
+template <Real T>
+struct DerivativeBounds {
+  T least_second{};     ///< <= d2 value / d lateral2 [1/m]
+  T greatest_second{};  ///< >= d2 value / d lateral2 [1/m]
+  T greatest_third{};   ///< >= |d3 value / d lateral3| [1/m2]
+};
+
+/// What the curvature of a profile keeps within over an interval, positive where convex.
+template <Real T>
+struct CurvatureBounds {
+  T least{};     ///< [1/m]
+  T greatest{};  ///< [1/m]
+};
+
+/// A profile that bounds its derivatives and its curvature over an interval inside one piece, from
+/// lower to upper [m]. Bounds hold but for rounding and become tight as the
+/// interval becomes short. What is proved about a profile rests on them.
+template <class P>
+concept HasDerivativeBounds = Profile<P> &&
+    requires(const P profile, const int piece, const typename P::Scalar x) {
+  { profile.derivative_bounds(piece, x, x) } -> std::same_as<DerivativeBounds<typename P::Scalar>>;
+  { profile.curvature_bounds(piece, x, x) } -> std::same_as<CurvatureBounds<typename P::Scalar>>;
+};
+
 /// The nearest point of a profile to a point of its plane.
 template <Real T>
 struct ClosestPoint {

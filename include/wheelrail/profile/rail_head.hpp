@@ -45,6 +45,14 @@ class RailHead {
   [[nodiscard]] ProfilePoint<T> evaluate(int piece, const T& lateral) const {
     return profile_.evaluate(piece, lateral);
   }
+  [[nodiscard]] DerivativeBounds<T> derivative_bounds(int piece, const T& lower,
+                                                      const T& upper) const {
+    return profile_.derivative_bounds(piece, lower, upper);
+  }
+  [[nodiscard]] CurvatureBounds<T> curvature_bounds(int piece, const T& lower,
+                                                    const T& upper) const {
+    return profile_.curvature_bounds(piece, lower, upper);
+  }
 
   /// The closed form of (61): the arc whose sector holds the point, and the foot on its radius. The
   /// sectors are cut by the normals at the joints. The sides go on straight below side_depth; the

@@ -52,13 +52,30 @@ struct RailFrame {
 
 namespace detail {
 
+/// No concave zone, as `concave_intervals` sees it, and no corner more concave than @p corner [rad].
 template <Profile P>
-[[nodiscard]] bool is_convex(const P& profile) {
+[[nodiscard]] bool is_convex(const P& profile, const typename P::Scalar& corner) {
   using T = typename P::Scalar;
   for (const auto& joint : inspect_joints(profile)) {
-    if (joint.slope_jump < -constant<T>(1e-6L)) return false;
+    const T slope = profile.evaluate(joint.lateral).slope;
+    if (joint.slope_jump < -corner * (T(1) + slope * slope)) return false;
   }
   return concave_intervals(profile).empty();
+}
+
+/// The curvature over [lower, upper] of one piece: bounds where the profile has them, otherwise from
+/// both ends.
+template <Profile P>
+[[nodiscard]] CurvatureBounds<typename P::Scalar> curvature_bounds(
+    const P& profile, int piece, const typename P::Scalar& lower, const typename P::Scalar& upper) {
+  using T = typename P::Scalar;
+  if constexpr (HasDerivativeBounds<P>) {
+    return profile.curvature_bounds(piece, lower, upper);
+  } else {
+    const T one = curvature(profile.evaluate(piece, lower));
+    const T other = curvature(profile.evaluate(piece, upper));
+    return {min(one, other), max(one, other)};
+  }
 }
 
 }  // namespace detail
@@ -72,17 +89,36 @@ class Rail {
   using T = Scalar;
   using ProfileType = P;
 
-  explicit Rail(P profile) : profile_(std::move(profile)), is_convex_(detail::is_convex(profile_)) {
-    constexpr int samples = 256;
+  explicit Rail(P profile)
+      : profile_(std::move(profile)), is_convex_(detail::is_convex(profile_, constant<T>(1e-6L))) {
+    constexpr int intervals = 256;
+    const T corner = T(256) * epsilon<T>();
+    bool nowhere_concave = HasDerivativeBounds<P>;
     for (int piece = 0; piece < profile_.piece_count(); ++piece) {
-      const T lower = profile_.joint(piece), upper = profile_.joint(piece + 1);
-      T least = curvature(profile_.evaluate(piece, lower));
-      for (int i = 1; i <= samples; ++i) {
-        const T u = i == samples ? upper : T(lower + (upper - lower) * T(i) / T(samples));
-        least = detail::min(least, curvature(profile_.evaluate(piece, u)));
+      const T first = profile_.joint(piece);
+      const T width = profile_.joint(piece + 1) - first;
+      const T own = curvature(profile_.evaluate(piece, first));
+      PieceCurvature of{own, own, T(0)};
+      for (int i = 0; i < intervals; ++i) {
+        const T lower = first + width * T(i) / T(intervals);
+        const T upper = i + 1 == intervals ? profile_.joint(piece + 1)
+                                           : T(first + width * T(i + 1) / T(intervals));
+        const auto bounds = detail::curvature_bounds(profile_, piece, lower, upper);
+        of.least = detail::min(of.least, bounds.least);
+        of.greatest = detail::max(of.greatest, bounds.greatest);
+        checksum_ += T(1 + i % 7) * profile_.evaluate(piece, upper).value + lower;
       }
-      least_curvatures_.push_back(least);
+      if (piece > 0) {
+        const T below = profile_.evaluate(piece - 1, first).slope;
+        const T above = profile_.evaluate(piece, first).slope;
+        const bool is_corner =
+            corner * (T(1) + above * above) < detail::magnitude(T(below - above));
+        if (is_corner) of.at_lower_joint = T(1) / epsilon<T>();
+      }
+      curvatures_.push_back(of);
+      nowhere_concave = nowhere_concave && !(of.least < T(0));
     }
+    is_proved_convex_ = nowhere_concave && detail::is_convex(profile_, corner);
   }
 
   [[nodiscard]] const P& profile() const { return profile_; }
@@ -90,15 +126,32 @@ class Rail {
   /// Whether the profile has no concave zone and no concave corner, as `inspect_joints` and
   /// `concave_intervals` see it (jumps of the slope below 1e-6 pass). Searches use it.
   [[nodiscard]] bool is_convex() const { return is_convex_; }
+  /// Whether it is convex for certain: the profile's derivative bounds say so, and its corners are
+  /// concave by rounding at most.
+  [[nodiscard]] bool is_proved_convex() const { return is_proved_convex_; }
+  /// Differs for rails of different profiles, but for chance [m].
+  [[nodiscard]] const T& checksum() const { return checksum_; }
 
-  /// The least curvature of the pieces between two lateral coordinates [1/m], from samples.
+  /// The least curvature of the pieces between two lateral coordinates [1/m]: a bound where the
+  /// profile has bounds, otherwise from samples.
   [[nodiscard]] T least_curvature(const T& one, const T& other) const {
-    const int a = piece_of(profile_, one), b = piece_of(profile_, other);
-    T least = least_curvatures_[static_cast<std::size_t>(a < b ? a : b)];
-    for (int piece = (a < b ? a : b) + 1; piece <= (a < b ? b : a); ++piece) {
-      least = detail::min(least, least_curvatures_[static_cast<std::size_t>(piece)]);
+    const auto [first, last] = pieces_between(one, other);
+    T least = curvatures_[first].least;
+    for (std::size_t piece = first + 1; piece <= last; ++piece) {
+      least = detail::min(least, curvatures_[piece].least);
     }
     return least;
+  }
+
+  /// The greatest curvature there [1/m], as far as the profile has bounds; infinite over a corner.
+  [[nodiscard]] T greatest_curvature(const T& one, const T& other) const {
+    const auto [first, last] = pieces_between(one, other);
+    T greatest = curvatures_[first].greatest;
+    for (std::size_t piece = first + 1; piece <= last; ++piece) {
+      greatest = detail::max(
+          greatest, detail::max(curvatures_[piece].greatest, curvatures_[piece].at_lower_joint));
+    }
+    return greatest;
   }
 
   /// (3), (60): the surface point [m], rail frame.
@@ -128,9 +181,24 @@ class Rail {
   }
 
  private:
+  struct PieceCurvature {
+    T least{}, greatest{};  // inside [1/m]
+    T at_lower_joint{};     // where that is a corner: hardly finite [1/m]
+  };
+
+  // The first and the last piece between two lateral coordinates in any order.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> pieces_between(const T& one,
+                                                                   const T& other) const {
+    const auto a = static_cast<std::size_t>(piece_of(profile_, one));
+    const auto b = static_cast<std::size_t>(piece_of(profile_, other));
+    return a < b ? std::pair(a, b) : std::pair(b, a);
+  }
+
   P profile_;
   bool is_convex_;
-  std::vector<T> least_curvatures_;  // of each piece
+  bool is_proved_convex_ = false;
+  T checksum_ = T(0);
+  std::vector<PieceCurvature> curvatures_;
 };
 
 }  // namespace wheelrail
