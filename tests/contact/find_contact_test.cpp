@@ -760,7 +760,7 @@ TEST_CASE("find_contact: a memory changes no bit of the result, whatever it was 
   }
   CHECK(touching > 1000);
   CHECK(several > 5);
-  CHECK(10 * warm_evaluations < 8 * cold_evaluations);
+  CHECK(20 * warm_evaluations < 17 * cold_evaluations);
 }
 
 TEST_CASE("find_contact: zones between two strips are found and counted", "[contact][reference]") {

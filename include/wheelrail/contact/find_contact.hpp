@@ -5,29 +5,11 @@
 /// the penetration's extrema are solved for, and each run of penetrating strips is a zone whose
 /// deepest point is a patch. May include: core, numerics, profile, surface.
 ///
-/// What is proved (ContactResult::is_proved), for a locally straight, convex rail and profiles with
-/// derivative bounds (HasDerivativeBounds), but for rounding:
-///
-/// 1. A part above a tangent does not touch. The rail lies under its tangent plane with the normal n
-///    at P; the strip at u, a circle of radius R(u) = R0 + F(u) about the axle's point o + u a, is no
-///    deeper than g(u) = -n.(o - P) - u n.a + R(u) sqrt(1 - (n.a)^2) under it, whatever the yaw, and
-///    StripTree bounds F over an interval.
-/// 2. The penetration p along the locus L(u) is the least depth under all tangents, each of which
-///    changes with -n.L'': so p'' <= max(-n.L''), which bounds p and p' between two strips. Where p
-///    stays below the threshold, or p' keeps its sign, nothing is hidden between them.
-/// 3. Where the rail's curvature is at least k it lies, near each foot, inside a circle of radius 1/k:
-///    p'' <= -n.L'' - (|L'|^2 - p'^2) k / (1 + k gap). Where that is negative p has one maximum at
-///    most. Where |p'| < |L'| the foot moves one way, from the foot of one strip to the other's.
-/// 4. With k the greatest curvature, p'' >= -n.L'' - |L'|^2 k / (1 - k p): where that is positive p
-///    has one minimum at most.
-/// 5. Strips of which none of this can be said are divided until it can, or until p varies by less
-///    than the depth tolerance between them.
-///
-/// L' and L'' follow from (57) and (59) with t = tan(yaw): L'' = -F'' (0, cos s_w) and terms in t^2
-/// times F', F'' and F'''; those with F''' lie along L' but for t^4.
+/// What is proved (ContactResult::is_proved), and from what, stands in detail/penetration_bounds.hpp.
 
 #include <algorithm>
 #include <array>
+#include <wheelrail/contact/detail/penetration_bounds.hpp>
 #include <wheelrail/contact/patch.hpp>
 #include <wheelrail/contact/search_memory.hpp>
 
@@ -69,7 +51,9 @@ class StripWalk {
         parts_(memory != nullptr ? &memory->parts(rail) : nullptr),
         axle_lateral_(placement.cos_roll * placement.cos_yaw),
         axle_up_(placement.sin_roll * placement.cos_yaw),
-        margin_(T(64) * epsilon<T>() * wheel.nominal_radius()) {
+        margin_(T(64) * epsilon<T>() * wheel.nominal_radius()),
+        bounds_(rail, wheel.strips().greatest_radius(), placement.tan_yaw,
+                T(options.penetration_threshold - margin_)) {
     using std::sqrt;
     const T root = sqrt(epsilon<T>());
     step_tolerance_ = root * T(sqrt(root)) * wheel.nominal_radius();
@@ -83,18 +67,7 @@ class StripWalk {
   }
 
  private:
-  // A strip with its penetration and d penetration / d wheel_lateral. `exists` is false where the
-  // strip has no locus point, or the rail no foot for it.
-  struct Strip {
-    T wheel_lateral{};
-    T rail_lateral{};
-    T penetration{};
-    T slope{};
-    T slope_rate{};  // d slope / d wheel_lateral [1/m], without terms of yaw squared
-    RailTangent<T> tangent;
-    int piece = -1;
-    bool exists = false;
-  };
+  using Strip = LocusStrip<T>;
 
   // A tangent of the rail, as the bound of this file's head needs it.
   struct Plane {
@@ -168,6 +141,7 @@ class StripWalk {
     for (std::size_t i = 0; i < std::min(planes_seen_, planes_.size()); ++i) {
       if (excluded_by(planes_[i])) return true;
     }
+    if (node.is_block) return false;  // the strips at its ends tell more
     ++result_.evaluations;
     const LocusPoint<T> locus = locus_point(wheel_, placement_, node.centre, node.point);
     if (!locus.exists) return false;
@@ -175,85 +149,6 @@ class StripWalk {
     Plane& latest = planes_[planes_seen_++ % planes_.size()];
     latest = plane(tangent_at(foot, locus));
     return excluded_by(latest);
-  }
-
-  // What is known of the penetration between two strips of one piece.
-  enum class Verdict {
-    excluded,  // it stays below the threshold
-    simple,    // it has one extremum at most inside
-    open       // nothing
-  };
-  struct Judgement {
-    Verdict verdict = Verdict::open;
-    T variation{};           // by which it varies at most [m]
-    bool is_bounded = true;  // false where the yaw is too great for the bounds as they are
-  };
-
-  // By 2, 3 and 4 of this file's head. `shape` holds between the strips.
-  [[nodiscard]] Judgement judge(const Strip& left, const Strip& right,
-                                const ShapeBounds<T>& shape) const {
-    using std::sqrt;
-    const Judgement unknown{Verdict::open, wheel_.nominal_radius(), left.exists || right.exists};
-    if (!rail_.is_convex() || !left.exists || !right.exists) return unknown;
-    const T width = right.wheel_lateral - left.wheel_lateral;
-    const T yaw = square(placement_.tan_yaw);
-    const T slope = shape.steepest, slope_squared = square(slope);
-    const T radius = wheel_.strips().greatest_radius();
-    const T hollow = max(T(0), shape.greatest_second);
-    const T sine_squared = yaw * slope_squared;
-    if (!(sine_squared + yaw * (slope_squared + radius * hollow) < constant<T>(0.5L))) {
-      return {Verdict::open, wheel_.nominal_radius(), false};
-    }
-    const T cosine = sqrt(T(T(1) - sine_squared));
-    const T twist = yaw * radius * shape.third / cosine;
-    if (!(twist * width < constant<T>(0.5L))) return unknown;
-    const T by_yaw = yaw * (slope * shape.second * (T(3) + T(2) * slope / cosine) +
-                            twist * (slope_squared * (T(2) + slope) +
-                                     radius * shape.second * (T(1) + slope / cosine)));
-    const T steepest =
-        (max(magnitude(left.slope), magnitude(right.slope)) + (hollow + by_yaw) * width) /
-        (T(1) - twist * width);
-    const T bend = hollow + by_yaw + twist * steepest;
-    const T variation = steepest * width;
-    if (!may_penetrate(left, right, bend)) return {Verdict::excluded, variation};
-    if (bend * width < right.slope || bend * width < -left.slope) {
-      return {Verdict::simple, variation};
-    }
-    const T speed_squared = T(1) + square(shape.flattest) -
-                            yaw * (T(1) + T(2) * (slope_squared + radius * hollow) +
-                                   square(slope_squared) + T(2) * radius * slope_squared * hollow);
-    const T sliding_squared = speed_squared - square(steepest);
-    if (!(T(0) < sliding_squared)) return {Verdict::open, variation};
-    // So the foot moves one way, from the left strip's to the right one's, and so does the normal.
-    const Vector2<T>& one = left.tangent.normal_rail;
-    const Vector2<T>& other = right.tangent.normal_rail;
-    const bool passes_top = (one.x() < T(0)) != (other.x() < T(0));
-    const T least_up = min(one.y(), other.y());
-    const T greatest_up = passes_top ? T(1) : max(one.y(), other.y());
-    const T wheel_bend =
-        bend - hollow +
-        shape.greatest_second * (shape.greatest_second < T(0) ? T(least_up * cosine) : greatest_up);
-    const T curvature = rail_.least_curvature(left.rail_lateral, right.rail_lateral);
-    const T gap = max(T(0), T(variation - min(left.penetration, right.penetration)));
-    const T greatest_bend =
-        max(T(0), T(wheel_bend - sliding_squared * curvature / (T(1) + curvature * gap)));
-    if (greatest_bend * width < right.slope || greatest_bend * width < -left.slope ||
-        greatest_bend == T(0)) {
-      return {Verdict::simple, variation};
-    }
-    if (!may_penetrate(left, right, greatest_bend)) return {Verdict::excluded, variation};
-    // Convex, where the wheel is more hollow than the rail is curved?
-    const T stretch = T(1) + yaw * radius * shape.second / square(cosine);
-    const T greatest_speed = (T(1) + slope_squared) * square(stretch);
-    const T deepest = max(T(0), T(max(left.penetration, right.penetration) + variation));
-    const T greatest_curvature = rail_.greatest_curvature(left.rail_lateral, right.rail_lateral);
-    const T wheel_bend_least =
-        least_up * cosine * shape.least_second - by_yaw - twist * steepest -
-        T(2) * yaw * radius * square(shape.second) / (square(cosine) * cosine);
-    const bool is_convex = greatest_curvature * deepest < T(1) &&
-                           greatest_speed * greatest_curvature <
-                               wheel_bend_least * (T(1) - greatest_curvature * deepest);
-    return {is_convex ? Verdict::simple : Verdict::open, variation};
   }
 
   // Strips at both ends of a block, then what lies between them.
@@ -272,8 +167,8 @@ class StripWalk {
     const auto lies_above = [&](const Strip& strip) {
       return strip.exists && is_above(plane(strip.tangent), node);
     };
-    if (!node.is_block && rail_.is_convex() && (lies_above(left) || lies_above(right))) return;
-    const Judgement judgement = judge(left, right, node.shape);
+    if (rail_.is_convex() && (lies_above(left) || lies_above(right))) return;
+    const Judgement<T> judgement = bounds_.judge(left, right, node.shape);
     if (judgement.verdict == Verdict::excluded) return;
     const bool is_leaf = node.skip == index + 1;
     if (judgement.verdict == Verdict::open && !is_leaf) {
@@ -295,7 +190,7 @@ class StripWalk {
 
   // Between two strips, the left one visited, of which nothing is known: they are divided until it
   // is, or too little to matter. Where that proves nothing, they are taken to have one extremum.
-  void visit_open(const Strip& left, const Strip& right, const Judgement& judgement, int depth) {
+  void visit_open(const Strip& left, const Strip& right, const Judgement<T>& judgement, int depth) {
     // What is unbounded becomes bounded soon, or never.
     const int maximum_depth = judgement.is_bounded ? 16 : 6;
     const bool is_small = judgement.variation < options_.depth_tolerance;
@@ -314,9 +209,9 @@ class StripWalk {
   }
 
   void visit_part(const Strip& left, const Strip& right, int depth) {
-    const Judgement judgement =
-        judge(left, right,
-              shape_bounds(wheel_.profile(), left.piece, left.wheel_lateral, right.wheel_lateral));
+    const Judgement<T> judgement = bounds_.judge(
+        left, right,
+        shape_bounds(wheel_.profile(), left.piece, left.wheel_lateral, right.wheel_lateral));
     if (judgement.verdict == Verdict::simple) visit_extremum(left, right);
     if (judgement.verdict == Verdict::open) visit_open(left, right, judgement, depth);
   }
@@ -368,16 +263,6 @@ class StripWalk {
     return at.exists && options_.penetration_threshold < at.penetration;
   }
 
-  // Whether the penetration can pass the threshold between two strips, its second derivative being
-  // at most `bend`.
-  [[nodiscard]] bool may_penetrate(const Strip& left, const Strip& right, const T& bend) const {
-    const T width = right.wheel_lateral - left.wheel_lateral;
-    const T bulge = bend * width * width / T(2);
-    const T from_left = left.penetration + max(T(0), left.slope) * width + bulge;
-    const T from_right = right.penetration + max(T(0), T(-right.slope)) * width + bulge;
-    return options_.penetration_threshold - margin_ < min(from_left, from_right);
-  }
-
   // Where the foot passes a joint of the rail between the last strip and the next, the
   // penetration's second derivative jumps, and it can have an extremum on either side: a strip is
   // put there.
@@ -404,35 +289,6 @@ class StripWalk {
     }
   }
 
-  // The cubic with the penetrations and slopes of two strips, over the share t of the way from the
-  // left to the right one: where a root or an extremum is looked for first.
-  struct Cubic {
-    T c0, c1, c2, c3;
-
-    Cubic(const Strip& left, const Strip& right, const T& threshold) {
-      const T width = right.wheel_lateral - left.wheel_lateral;
-      const T rise = right.penetration - left.penetration;
-      c0 = left.penetration - threshold;
-      c1 = width * left.slope;
-      c2 = T(3) * rise - width * (T(2) * left.slope + right.slope);
-      c3 = width * (left.slope + right.slope) - T(2) * rise;
-    }
-
-    // Two Newton steps from the share t.
-    [[nodiscard]] T near_root(T t) const {
-      for (int i = 0; i < 2; ++i) {
-        t -= (c0 + t * (c1 + t * (c2 + t * c3))) / (c1 + t * (T(2) * c2 + t * T(3) * c3));
-      }
-      return t;
-    }
-    [[nodiscard]] T near_extremum(T t) const {
-      for (int i = 0; i < 2; ++i) {
-        t -= (c1 + t * (T(2) * c2 + t * T(3) * c3)) / (T(2) * c2 + t * T(6) * c3);
-      }
-      return t;
-    }
-  };
-
   // `share` of the way from left to right; where it leads out of the interval, `otherwise`.
   [[nodiscard]] static T between(const Strip& left, const Strip& right, const T& share,
                                  const T& otherwise) {
@@ -449,7 +305,7 @@ class StripWalk {
     if (!is_maximum && !is_minimum) return;
     if (is_minimum && !(penetrates(left) && penetrates(right))) return;
     const T secant = left.slope / (left.slope - right.slope);
-    const Cubic cubic(left, right, options_.penetration_threshold);
+    const PenetrationCubic<T> cubic(left, right, options_.penetration_threshold);
     bool lost = false;
     Strip before;
     const auto root = bracketed_newton<T>(
@@ -533,7 +389,7 @@ class StripWalk {
         },
         left.wheel_lateral, right.wheel_lateral, T(left.penetration - threshold),
         T(right.penetration - threshold),
-        between(left, right, Cubic(left, right, threshold).near_root(share), share),
+        between(left, right, PenetrationCubic<T>(left, right, threshold).near_root(share), share),
         {.step_tolerance = step_tolerance(), .residual_tolerance = margin_ / T(16)});
     if (root.status != SolveStatus::converged || lost) {
       result_.status = SearchStatus::not_converged;
@@ -571,9 +427,9 @@ class StripWalk {
   Strip edge_;                   // at the last block's end,
   int edge_index_ = -1;          // which is this strip of the wheel
   std::size_t planes_seen_ = 0;  // planes_ has the last ones
-  T centre_curvature_{};         // of the rail under the centre of the last node [1/m]
   T margin_;                     // rounding of the bound and of the penetration [m]
-  T step_tolerance_{};           // [m]
+  PenetrationBounds<R> bounds_;
+  T step_tolerance_{};  // [m]
   ContactResult<T> result_;
   int reached_ = -1;  // the last strip of the wheel that was visited
   Strip last_;
