@@ -202,7 +202,11 @@ TEST_CASE("vehicle data: every row of the files has its unit and changes the veh
       const double value = std::stod(fields[1]);
       const std::string more = std::to_string(value == 0 ? 1 : 1.01 * value);
       CHECK(changed(lines, i, fields[0] + "," + more + "," + fields[2]) != before);
-      const std::string where = "vehicle.csv:" + std::to_string(i + 1) + ": '" + fields[0] + "'";
+      const std::string where = std::string("vehicle.csv:")
+                                    .append(std::to_string(i + 1))
+                                    .append(": '")
+                                    .append(fields[0])
+                                    .append("'");
       CHECK_THROWS_WITH(
           changed(lines, i, fields[0] + "," + fields[1] + "," + fields[2] + "m,confirmed"),
           Contains(where + ": unit is '" + fields[2] + "m', but must be '" + fields[2] + "'"));
@@ -235,8 +239,8 @@ TEST_CASE("vehicle data: what says nothing where it stands is refused", "[exampl
   for (const char* name : {"lateral bump stop force 30 mm", "lateral bump stop force at 30 cm",
                            "lateral bump stop force at mm", "lateral bump stop force at nan mm",
                            "lateral bump stop force", "bump stop force at 30 mm", ""}) {
-    refused("metro_trailer", std::string(name) + ",1,N",
-            "'" + std::string(name) + "' is no quantity of a vehicle");
+    refused("metro_trailer", std::string(name).append(",1,N"),
+            std::string("'").append(name).append("' is no quantity of a vehicle"));
   }
   const std::string rod = "' says nothing without 'traction rod stiffness'";
   refused("metro_trailer", "traction rod damping,1,N s/m", ":41: 'traction rod damping" + rod);
