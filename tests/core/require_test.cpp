@@ -59,3 +59,8 @@ TEST_CASE("require: a scalar without text is refused without its value", "[core]
   CHECK_THROWS_WITH(detail::require_positive("x", StrictScalar(-1.0), "[m]"),
                     "x is (a value without text), but must be finite and > 0 [m]");
 }
+
+TEST_CASE("joined: the parts in their order", "[core]") {
+  CHECK(detail::joined({}).empty());
+  CHECK(detail::joined({"segment ", std::to_string(7), "", " ends"}) == "segment 7 ends");
+}

@@ -323,7 +323,8 @@ class StripWalk {
         left.wheel_lateral, right.wheel_lateral, left.slope, right.slope,
         between(left, right, cubic.near_extremum(secant), secant),
         // Where the bodies nearly conform, the slope's rounding outweighs its rate.
-        {.step_tolerance = step_tolerance_, .residual_tolerance = T(4) * epsilon<T>()});
+        {.step_tolerance = T(2) * epsilon<T>() * wheel_.nominal_radius(),
+         .residual_tolerance = T(4) * epsilon<T>()});
     if (root.status != SolveStatus::converged || lost) {
       result_.status = SearchStatus::not_converged;
       return;

@@ -4,12 +4,22 @@
 /// that it broke. May include: core, std.
 
 #include <cstdio>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <wheelrail/core/scalar.hpp>
 
 namespace wheelrail::detail {
+
+/// The parts one after the other. Messages are put together with this where sums of strings make a
+/// compiler warn falsely of what it inlines.
+[[nodiscard]] inline std::string joined(std::initializer_list<std::string_view> parts) {
+  std::string text;
+  for (const std::string_view part : parts) text.append(part);
+  return text;
+}
 
 /// @p value for an error message; scalars that are no floating-point type have no text.
 template <Real T>
@@ -27,7 +37,7 @@ template <Real T>
 template <Real T>
 inline void require(bool holds, const std::string& name, const T& value, const std::string& rule) {
   if (!holds) {
-    throw std::invalid_argument(name + " is " + to_text(value) + ", but must be " + rule);
+    throw std::invalid_argument(joined({name, " is ", to_text(value), ", but must be ", rule}));
   }
 }
 

@@ -28,11 +28,13 @@ class ProfilePiece {
     ProfilePiece piece(lower, upper);
     detail::require_positive("polynomial piece: scale", scale, "[m]");
     detail::require_finite("polynomial piece: origin", origin);
-    detail::require(!coefficients.empty() && coefficients.size() <= piece.coefficients_.size(),
-                    "polynomial piece: there are " + std::to_string(coefficients.size()) +
-                        " coefficients, but there must be 1 to 9");
+    detail::require(
+        !coefficients.empty() && coefficients.size() <= piece.coefficients_.size(),
+        detail::joined({"polynomial piece: there are ", std::to_string(coefficients.size()),
+                        " coefficients, but there must be 1 to 9"}));
     for (std::size_t k = 0; k < coefficients.size(); ++k) {
-      detail::require_finite("polynomial piece: coefficient " + std::to_string(k), coefficients[k]);
+      detail::require_finite(detail::joined({"polynomial piece: coefficient ", std::to_string(k)}),
+                             coefficients[k]);
       piece.coefficients_[k] = coefficients[k];
     }
     piece.degree_ = static_cast<int>(coefficients.size()) - 1;
