@@ -25,8 +25,9 @@ struct PartMemory {
 
 /// What each part of a wheel was in the last search: under which tangent of the rail it could not
 /// touch, or open. A tangent stays what it is wherever the wheel goes, and what is open is searched:
-/// so whatever is remembered, in any order of poses, the result is that of a cold search to the last
-/// bit. One memory serves one wheel, one search at a time. The caller owns it.
+/// so whatever is remembered, in any order of poses, the patches are those of a cold search to the
+/// last bit (a proof may succeed that fails cold, where a remembered tangent excludes more). One
+/// memory serves the wheel that it was made for, one search at a time. The caller owns it.
 template <Real T>
 class SearchMemory {
  public:
