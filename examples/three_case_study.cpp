@@ -86,8 +86,8 @@ class Study {
   template <class Body>
   void with_scenario(std::size_t s, Body&& body) const {
     if (s == 0) body(convex_wheelset_, minimum_distance_);
-    if (s == 1) body(convex_wheelset_, strips_);
-    if (s == 2) body(real_wheelset_, strips_);
+    if (s == 1) body(convex_wheelset_, WarmStripSearch<double>(convex_wheelset_));
+    if (s == 2) body(real_wheelset_, WarmStripSearch<double>(real_wheelset_));
   }
 
   // Adds what repetition `r` of one scenario gave; its tables are written by the first one.
@@ -210,7 +210,6 @@ class Study {
   Wheelset<examples::ConvexWheel> convex_wheelset_{convex_, nominal_radius(),
                                                    vehicle_.profile_spacing};
   ContactForceModel<double> model_;
-  StripSearch<double> strips_;
   MinimumDistanceSearch<double> minimum_distance_{convex_parts(convex_), {}};
   examples::StudyCases cases_;
   std::mutex mutex_;

@@ -35,7 +35,7 @@ int simulate(const examples::Arguments& given, const WheelProfile& profile) {
   }
   const std::string method = given.choice("--method", examples::method_names);
   std::filesystem::path output;
-  const auto history = examples::with_search(method, profile, [&](const auto& search) {
+  const auto history = examples::with_warm_search(method, wheelset, [&](const auto& search) {
     // Throws where the start is impossible: before a directory is made.
     static_cast<void>(examples::WheelsetOnTrack(wheelset, track, model, search, run).start(run));
     if (given.given("--output")) output = examples::prepare_directory(given.text("--output"));

@@ -32,6 +32,17 @@ template <wheelrail::Profile P, class Body>
   return body(wheelrail::StripSearch<double>{});
 }
 
+// The same for a wheelset that moves by small steps.
+template <wheelrail::Profile P, class Body>
+[[nodiscard]] auto with_warm_search(const std::string& name, const wheelrail::Wheelset<P>& wheelset,
+                                    Body&& body) {
+  if (name == "minimum-distance") {
+    return body(wheelrail::MinimumDistanceSearch<double>{
+        wheelrail::convex_parts(wheelset.wheel(wheelrail::Side::left).profile()), {}});
+  }
+  return body(wheelrail::WarmStripSearch<double>(wheelset));
+}
+
 [[nodiscard]] inline const wheelrail::Patch<double>& patch_of(
     const wheelrail::Patch<double>& patch) {
   return patch;

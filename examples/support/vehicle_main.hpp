@@ -61,7 +61,7 @@ template <class Track>
     require_fit(wheelset, track);
     std::filesystem::path output;
     if (given.given("--output")) output = prepare_directory(given.text("--output"));
-    const VehicleHistory history = with_search(method, profile, [&](const auto& search) {
+    const VehicleHistory history = with_warm_search(method, wheelset, [&](const auto& search) {
       return run_vehicle(vehicle, wheelset, track, model, search, run);
     });
     const std::string text = head + summary(history);

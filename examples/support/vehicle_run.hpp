@@ -153,7 +153,7 @@ class VehicleOnTrack {
         wheelset_(wheelset),
         track_(track),
         model_(model),
-        search_(search),
+        wheelset_searches_(vehicle.wheelsets.size(), search),
         system_(balanced_model(vehicle)),
         arc_lengths_(vehicle.wheelsets.size(), 0.0) {
     for (const Side side : wheelrail::sides) {
@@ -173,9 +173,9 @@ class VehicleOnTrack {
     const auto state = wheelrail::unpack_rigid_body(y, vehicle_.wheelsets[i]);
     const wheelrail::Matrix3<double> axes = wheelrail::rotation_matrix(state.orientation);
     const wheelrail::Vector3<double> angular_velocity_world = axes * state.angular_velocity_body;
-    const auto found =
-        wheelset_forces(wheelset_, track_, {state.position_world, axes.col(1), arc_lengths_[i]},
-                        {state.velocity_world, angular_velocity_world}, model_, search_);
+    const auto found = wheelset_forces(
+        wheelset_, track_, {state.position_world, axes.col(1), arc_lengths_[i]},
+        {state.velocity_world, angular_velocity_world}, model_, wheelset_searches_[i]);
     const double arc_length = found.wheels[0].arc_length;
     if (wheelrail::is_finite(arc_length)) arc_lengths_[i] = arc_length;
     return found;
@@ -418,7 +418,7 @@ class VehicleOnTrack {
   const Wheelset& wheelset_;
   const Track& track_;
   const wheelrail::ContactForceModel<double>& model_;
-  const Search& search_;
+  std::vector<Search> wheelset_searches_;
   System system_;
   std::vector<double> arc_lengths_;         // where each wheelset's rails were found last [m]
   std::array<double, 2> flange_heights_{};  // above the tread circle [m]

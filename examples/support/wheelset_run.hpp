@@ -62,7 +62,7 @@ class WheelsetOnTrack {
   }
 
   [[nodiscard]] wheelrail::WheelsetForces<double> forces(
-      const wheelrail::RigidBodyState<double>& state) const {
+      const wheelrail::RigidBodyState<double>& state) {
     const wheelrail::Vector3<double> angular_velocity_world =
         wheelrail::rotation_matrix(state.orientation) * state.angular_velocity_body;
     return wheelset_forces(wheelset_, track_, position(state),
@@ -130,7 +130,7 @@ class WheelsetOnTrack {
   const Wheelset& wheelset_;
   const Track& track_;
   const wheelrail::ContactForceModel<double>& model_;
-  const Search& search_;
+  Search search_;
   wheelrail::RigidBody<double> body_;
   double gravity_;
   long searches_ = 0;

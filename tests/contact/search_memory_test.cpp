@@ -1,3 +1,5 @@
+#include <cmath>
+#include <random>
 #include <wheelrail/contact/search_memory.hpp>
 #include <wheelrail/profile/rail_head.hpp>
 #include <wheelrail/profile/s1002.hpp>
@@ -6,19 +8,91 @@
 
 using namespace wheelrail;
 
-TEST_CASE("SearchMemory: one entry for each slot, forgotten on another rail", "[contact]") {
+namespace {
+
+WheelPlacement<double> placed(double lateral, double up, double yaw, double roll) {
+  WheelPlacement<double> placement;
+  placement.position_rail = {0, lateral, up};
+  placement.sin_yaw = std::sin(yaw);
+  placement.cos_yaw = std::cos(yaw);
+  placement.tan_yaw = std::tan(yaw);
+  placement.sin_roll = std::sin(roll);
+  placement.cos_roll = std::cos(roll);
+  return placement;
+}
+
+}  // namespace
+
+TEST_CASE("SearchMemory: holds for one rail, one threshold and a wheel that moves little",
+          "[contact]") {
   const Wheel wheel(s1002<double>(), 0.43);
   const Rail uic(uic50<double>()), other(rail_60e1<double>()), again(uic50<double>());
   SearchMemory<double> memory(wheel);
-  auto& parts = memory.parts(uic);
-  REQUIRE(parts.size() == static_cast<std::size_t>(wheel.strips().slot_count()));
-  for (const auto& part : parts) {
-    CHECK(part.tangent.normal_rail.y() == 0);
-    CHECK_FALSE(part.is_open);
+  const auto here = placed(0, 0.43, 0.01, 0);
+  CHECK_FALSE(memory.covers(uic, here, 0));
+  memory.restart(uic, here, 0);
+  memory.blocks().push_back({7, {}});
+  CHECK(memory.covers(uic, here, 0));
+  CHECK(memory.covers(again, here, 0));
+  CHECK_FALSE(memory.covers(other, here, 0));
+  CHECK_FALSE(memory.covers(uic, here, 1e-6));
+  auto along = here;
+  along.position_rail.x() = 3;
+  CHECK(memory.covers(uic, along, 0));
+  CHECK_FALSE(memory.covers(uic, placed(1.01 * memory.skin(), 0.43, 0.01, 0), 0));
+  CHECK_FALSE(memory.covers(uic, placed(0, 0.43 - 1.01 * memory.skin(), 0.01, 0), 0));
+  CHECK(memory.blocks().size() == 1);
+  memory.restart(uic, here, 0);
+  CHECK(memory.blocks().empty());
+}
+
+TEST_CASE("SearchMemory: no point of the wheel moves farther than the skin unnoticed",
+          "[contact][random]") {
+  const auto profile = s1002<double>();
+  const Wheel wheel(profile, 0.43);
+  const Rail rail(uic50<double>());
+  std::mt19937 random(3);
+  const auto between = [&random](double lower, double upper) {
+    return lower + (upper - lower) * (static_cast<double>(random()) / 4294967296.0);
+  };
+  int covered = 0, noticed = 0;
+  double farthest = 0;
+  for (int i = 0; i < 2000; ++i) {
+    SearchMemory<double> memory(wheel);
+    const double yaw = between(-0.05, 0.05), roll = between(-0.02, 0.02);
+    const auto one = placed(0, 0.43, yaw, roll);
+    const auto other = placed(between(-1e-4, 1e-4), 0.43 + between(-1e-4, 1e-4),
+                              yaw + between(-1e-4, 1e-4), roll + between(-1e-4, 1e-4));
+    memory.restart(rail, one, 0);
+    // Circles of the wheel, seen along the rail: their points, turned about the axle so that both
+    // circles begin at their lowest point.
+    double moved = 0;
+    for (int k = 0; k <= 8; ++k) {
+      const double u = profile.lower() + (profile.upper() - profile.lower()) * k / 8;
+      const double radius = 0.43 + profile.evaluate(u).value;
+      for (int angle = 0; angle < 24; ++angle) {
+        const double turn = angle * 0.2617993877991494;
+        const Vector3<double> point(-radius * std::sin(turn), u, -radius * std::cos(turn));
+        const Vector3<double> step = (other.position_rail + other.direction_rail(point)) -
+                                     (one.position_rail + one.direction_rail(point));
+        moved = std::max(moved, std::hypot(step.y(), step.z()));
+      }
+    }
+    const bool covers = memory.covers(rail, other, 0);
+    covered += covers;
+    noticed += !covers;
+    if (covers) farthest = std::max(farthest, moved);
   }
-  parts[3] = {{Vector2<double>(0, 1), 0.001}, true};
-  CHECK(memory.parts(uic)[3].tangent.height == 0.001);
-  CHECK(memory.parts(again)[3].is_open);
-  CHECK(memory.parts(other)[3].tangent.normal_rail.y() == 0);
-  CHECK_FALSE(memory.parts(uic)[3].is_open);
+  CHECK(covered > 100);
+  CHECK(noticed > 100);
+  CHECK(farthest <= 1e-4);
+  CHECK(farthest > 0.5e-4);
+}
+
+TEST_CASE("SearchMemory: a skin out of range is named", "[contact][bad-input]") {
+  const Wheel wheel(s1002<double>(), 0.43);
+  CHECK_THROWS_WITH(SearchMemory<double>(wheel, 0.0),
+                    Catch::Matchers::Contains("search memory: skin is 0"));
+  CHECK_THROWS_WITH(SearchMemory<double>(wheel, std::nan("")),
+                    Catch::Matchers::Contains("search memory: skin"));
 }

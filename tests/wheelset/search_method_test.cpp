@@ -9,7 +9,8 @@
 
 using namespace wheelrail;
 
-TEST_CASE("StripSearch, MinimumDistanceSearch: the functions that they stand for", "[wheelset]") {
+TEST_CASE("StripSearch, WarmStripSearch, MinimumDistanceSearch: the functions that they stand for",
+          "[wheelset]") {
   const ConvexModification profile(s1002<double>());
   const Wheelset wheelset(profile, 0.43, 1.5);
   const TangentTrack track(uic50<double>());
@@ -30,4 +31,23 @@ TEST_CASE("StripSearch, MinimumDistanceSearch: the functions that they stand for
   REQUIRE(by_distance.patches.size() == 1);
   CHECK(by_distance.patches[0].penetration ==
         Approx(by_strips.patches[0].penetration).margin(1e-14));
+
+  // A wheelset on both rails, moving: each side has a memory of its own, and so has each copy.
+  WarmStripSearch<double> warm(wheelset);
+  int fewer = 0;
+  for (int i = 0; i < 40; ++i) {
+    const auto position = WheelsetPosition<double>::of(1e-5 * i, 0.4297, 0.0, 0.005);
+    WarmStripSearch<double> copy = warm;
+    for (const Side side : sides) {
+      const auto where = place_wheel(wheelset, track, side, position);
+      const auto cold = find_contact(wheelset.wheel(side), track.rail(side), where);
+      for (auto* search : {&copy, &warm}) {
+        const auto found = (*search)(wheelset.wheel(side), track.rail(side), where);
+        REQUIRE(found.patches.size() == cold.patches.size());
+        CHECK(found.patches[0].penetration == cold.patches[0].penetration);
+        fewer += found.evaluations < cold.evaluations;
+      }
+    }
+  }
+  CHECK(fewer > 100);
 }

@@ -7,8 +7,6 @@
 ///
 /// What is proved (ContactResult::is_proved), and from what, stands in detail/penetration_bounds.hpp.
 
-#include <algorithm>
-#include <array>
 #include <wheelrail/contact/detail/penetration_bounds.hpp>
 #include <wheelrail/contact/patch.hpp>
 #include <wheelrail/contact/search_memory.hpp>
@@ -48,20 +46,32 @@ class StripWalk {
         placement_(placement),
         options_(options),
         can_prove_(wheel.strips().is_proved() && rail.is_proved_convex()),
-        parts_(memory != nullptr ? &memory->parts(rail) : nullptr),
+        memory_(memory),
         axle_lateral_(placement.cos_roll * placement.cos_yaw),
         axle_up_(placement.sin_roll * placement.cos_yaw),
         margin_(T(64) * epsilon<T>() * wheel.nominal_radius()),
         bounds_(rail, wheel.strips().greatest_radius(), placement.tan_yaw,
                 T(options.penetration_threshold - margin_)) {
     using std::sqrt;
-    const T root = sqrt(epsilon<T>());
-    step_tolerance_ = root * T(sqrt(root)) * wheel.nominal_radius();
+    step_tolerance_ = sqrt(epsilon<T>()) * wheel.nominal_radius() / T(4);
   }
 
   [[nodiscard]] ContactResult<T> run() {
     result_.is_proved = can_prove_;
-    static_cast<void>(search(0));
+    if (memory_ == nullptr) {
+      for_each_near_block(T(0), [this](int block) {
+        RailTangent<T> tangent;
+        visit_block(block, tangent);
+      });
+    } else {
+      const T& threshold = options_.penetration_threshold;
+      auto& blocks = memory_->blocks();
+      if (!memory_->covers(rail_, placement_, threshold)) {
+        memory_->restart(rail_, placement_, threshold);
+        for_each_near_block(memory_->skin(), [&](int block) { blocks.push_back({block, {}}); });
+      }
+      for (auto& block : blocks) visit_block(block.node, block.tangent);
+    }
     leave_zone();
     return result_;
   }
@@ -93,81 +103,90 @@ class StripWalk {
                                   foot.normal_rail.y() * locus.up};
   }
 
-  // Whether g of this file's head is below the threshold over the strips of a node.
-  [[nodiscard]] bool is_above(const Plane& plane, const StripNode<T>& node) const {
+  // Whether g of this file's head is below the threshold over the strips of a node, and by how much.
+  [[nodiscard]] bool is_above(const Plane& plane, const StripNode<T>& node,
+                              const T& clearance = T(0)) const {
     const T bound =
         plane.height - node.centre * plane.along_axle +
         wheel_.radius(node.point) * plane.across_axle +
         magnitude(T(node.point.slope * plane.across_axle - plane.along_axle)) * node.half_width +
         node.rise * plane.across_axle;
-    return bound < options_.penetration_threshold - margin_;
+    return bound < options_.penetration_threshold - margin_ - clearance;
   }
 
-  // Searches a node down to blocks and remembers what of it was excluded. Returns whether any of it
-  // was not.
-  [[nodiscard]] bool search(int index) {
+  // Calls visit(block) for the blocks, in order, of which no tangent of the rail proves that they
+  // stay `clearance` above it.
+  template <class Visit>
+  void for_each_near_block(const T& clearance, Visit&& visit) {
     const auto& nodes = wheel_.strips().nodes();
-    const StripNode<T>& node = nodes[static_cast<std::size_t>(index)];
-    PartMemory<T>* known =
-        parts_ != nullptr ? &(*parts_)[static_cast<std::size_t>(node.slot)] : nullptr;
-    // What was open is likely to be so again: not even looked at, its blocks will be.
-    const bool was_open = !node.is_block && known != nullptr && known->is_open;
-    if (!was_open && cannot_penetrate(node, known)) return false;
-    bool is_open = false;
-    if (node.is_block) {
-      const int reached = reached_;
-      visit_block(index);
-      is_open = reached_ != reached;
-    } else {
-      const bool first = search(index + 1);
-      const bool second = search(nodes[static_cast<std::size_t>(index + 1)].skip);
-      is_open = first || second;
+    const int end = static_cast<int>(nodes.size());
+    for (int index = 0; index < end;) {
+      const StripNode<T>& node = nodes[static_cast<std::size_t>(index)];
+      if (is_far(node, clearance)) {
+        index = node.skip;
+      } else if (node.is_block) {
+        visit(index);
+        index = node.skip;
+      } else {
+        ++index;
+      }
     }
-    if (known != nullptr) known->is_open = is_open;
-    return is_open;
   }
 
-  // Whether a node down to a block lies above a tangent of the rail: above that which excluded it
-  // last, above one of the last ones that were looked at, or above the one under its centre.
-  [[nodiscard]] bool cannot_penetrate(const StripNode<T>& node, PartMemory<T>* known) {
-    if (!rail_.is_convex()) return false;
-    const bool is_known = known != nullptr && !(known->tangent.normal_rail.y() == T(0));
-    if (is_known && is_above(plane(known->tangent), node)) return true;
-    const auto excluded_by = [&](const Plane& at) {
-      if (!is_above(at, node)) return false;
-      if (known != nullptr) known->tangent = at.tangent;
-      return true;
-    };
-    for (std::size_t i = 0; i < std::min(planes_seen_, planes_.size()); ++i) {
-      if (excluded_by(planes_[i])) return true;
-    }
+  // By the last tangent that was looked at, or by the one nearest to the node's centre.
+  [[nodiscard]] bool is_far(const StripNode<T>& node, const T& clearance) {
+    if (!rail_.is_convex() || T(0.002) < node.rise) return false;
+    if (has_plane_ && is_above(plane_, node, clearance)) return true;
     if (node.is_block) return false;  // the strips at its ends tell more
     ++result_.evaluations;
-    const LocusPoint<T> locus = locus_point(wheel_, placement_, node.centre, node.point);
-    if (!locus.exists) return false;
-    const ClosestPoint<T> foot = rail_foot(rail_.profile(), locus.lateral, locus.up);
-    Plane& latest = planes_[planes_seen_++ % planes_.size()];
-    latest = plane(tangent_at(foot, locus));
-    return excluded_by(latest);
+    // The lowest point of the strip, as if there were no yaw.
+    const T radius = wheel_.radius(node.point);
+    const T lateral = placement_.position_rail.y() + node.centre * placement_.cos_roll +
+                      radius * placement_.sin_roll;
+    const T up = placement_.position_rail.z() + node.centre * placement_.sin_roll -
+                 radius * placement_.cos_roll;
+    const ClosestPoint<T> foot = rail_foot(rail_.profile(), lateral, up);
+    has_plane_ = true;
+    plane_ = plane({foot.normal_rail,
+                    foot.penetration + foot.normal_rail.x() * lateral + foot.normal_rail.y() * up});
+    return is_above(plane_, node, clearance);
   }
 
-  // Strips at both ends of a block, then what lies between them.
-  void visit_block(int index) {
+  // Strips at both ends of a block, then what lies between them. `tangent` is one that kept it from
+  // touching, or will be.
+  void visit_block(int index, RailTangent<T>& tangent) {
     const StripNode<T>& node = wheel_.strips().nodes()[static_cast<std::size_t>(index)];
+    if (!(tangent.normal_rail.y() == T(0)) && is_above(plane(tangent), node)) return;
     const Strip left = node.first == edge_index_ ? edge_ : strip_of_wheel(node.first);
+    if (lies_above(left, node)) {
+      tangent = left.tangent;
+      return;
+    }
     edge_ = strip_of_wheel(node.last);
     edge_index_ = node.last;
-    visit_node(index, left, Strip(edge_));
+    if (lies_above(edge_, node)) {
+      tangent = edge_.tangent;
+      return;
+    }
+    judge_node(index, left, Strip(edge_));
   }
 
-  // A node inside a block, or the block, with the strips at its ends.
+  [[nodiscard]] bool lies_above(const Strip& strip, const StripNode<T>& node) const {
+    return strip.exists && rail_.is_convex() && is_above(plane(strip.tangent), node);
+  }
+
+  // A node inside a block with the strips at its ends.
   void visit_node(int index, const Strip& left, const Strip& right) {
     const auto& nodes = wheel_.strips().nodes();
     const StripNode<T>& node = nodes[static_cast<std::size_t>(index)];
-    const auto lies_above = [&](const Strip& strip) {
-      return strip.exists && is_above(plane(strip.tangent), node);
-    };
-    if (rail_.is_convex() && (lies_above(left) || lies_above(right))) return;
+    if (lies_above(left, node) || lies_above(right, node)) return;
+    judge_node(index, left, right);
+  }
+
+  // One that no tangent excludes.
+  void judge_node(int index, const Strip& left, const Strip& right) {
+    const auto& nodes = wheel_.strips().nodes();
+    const StripNode<T>& node = nodes[static_cast<std::size_t>(index)];
     const Judgement<T> judgement = bounds_.judge(left, right, node.shape);
     if (judgement.verdict == Verdict::excluded) return;
     const bool is_leaf = node.skip == index + 1;
@@ -248,15 +267,28 @@ class StripWalk {
     at.penetration = foot.penetration;
     // The foot moves along the surface, so only the locus' own motion across it counts.
     at.slope = -(foot.normal_rail.x() * locus.lateral_rate + foot.normal_rail.y() * locus.up_rate);
-    const T along =
-        foot.normal_rail.y() * locus.lateral_rate - foot.normal_rail.x() * locus.up_rate;
-    at.slope_rate = point.second_derivative * (foot.normal_rail.y() * placement_.cos_roll -
-                                               foot.normal_rail.x() * placement_.sin_roll) -
-                    foot.curvature / (T(1) - foot.curvature * foot.penetration) * along * along;
+    at.slope_rate = slope_rate(point, locus, foot);
     at.exists = is_finite(at.penetration) && is_finite(at.slope) &&
                 !(foot.lateral < rail_.profile().lower()) &&
                 !(rail_.profile().upper() < foot.lateral);
     return at;
+  }
+
+  // d slope / d wheel_lateral: (57), (59) twice differentiated. What is left out, terms with F''' and
+  // of yaw to the fourth, vanishes where the slope does, but for yaw to the fourth.
+  [[nodiscard]] T slope_rate(const ProfilePoint<T>& point, const LocusPoint<T>& locus,
+                             const ClosestPoint<T>& foot) const {
+    const Vector2<T>& n = foot.normal_rail;
+    const T& bend = point.second_derivative;
+    const T steepness = point.slope * point.slope;
+    const T squared_tan_yaw = placement_.tan_yaw * placement_.tan_yaw;
+    const T y_bend = T(-3) * squared_tan_yaw * placement_.cos_yaw * point.slope * bend;
+    const T z_bend = -bend * locus.angle.cosine +
+                     squared_tan_yaw * bend * (T(2) * steepness + wheel_.radius(point) * bend);
+    const T along = n.y() * locus.lateral_rate - n.x() * locus.up_rate;
+    return -(n.x() * placement_.cos_roll + n.y() * placement_.sin_roll) * y_bend -
+           (n.y() * placement_.cos_roll - n.x() * placement_.sin_roll) * z_bend -
+           foot.curvature / (T(1) - foot.curvature * foot.penetration) * along * along;
   }
 
   [[nodiscard]] bool penetrates(const Strip& at) const {
@@ -312,19 +344,13 @@ class StripWalk {
         [&](const T& u) {
           const Strip at = strip(left.piece, u);
           lost = lost || !at.exists;
-          // The rate leaves out what yaw does to it: from the second strip on, a secant has it.
-          const T rate =
-              before.exists
-                  ? T((at.slope - before.slope) / (at.wheel_lateral - before.wheel_lateral))
-                  : at.slope_rate;
           before = at;
-          return ValueAndSlope<T>{at.slope, rate};
+          return ValueAndSlope<T>{at.slope, at.slope_rate};
         },
         left.wheel_lateral, right.wheel_lateral, left.slope, right.slope,
         between(left, right, cubic.near_extremum(secant), secant),
         // Where the bodies nearly conform, the slope's rounding outweighs its rate.
-        {.step_tolerance = T(2) * epsilon<T>() * wheel_.nominal_radius(),
-         .residual_tolerance = T(4) * epsilon<T>()});
+        {.step_tolerance = step_tolerance_, .residual_tolerance = T(4) * epsilon<T>()});
     if (root.status != SolveStatus::converged || lost) {
       result_.status = SearchStatus::not_converged;
       return;
@@ -391,7 +417,7 @@ class StripWalk {
         left.wheel_lateral, right.wheel_lateral, T(left.penetration - threshold),
         T(right.penetration - threshold),
         between(left, right, PenetrationCubic<T>(left, right, threshold).near_root(share), share),
-        {.step_tolerance = step_tolerance(), .residual_tolerance = margin_ / T(16)});
+        {.step_tolerance = step_tolerance_, .residual_tolerance = margin_ / T(16)});
     if (root.status != SolveStatus::converged || lost) {
       result_.status = SearchStatus::not_converged;
     }
@@ -413,24 +439,21 @@ class StripWalk {
     if (!result_.patches.push_back(patch)) result_.status = SearchStatus::too_many_patches;
   }
 
-  // With exact slopes, a last Newton step this long leaves an error of rounding.
-  [[nodiscard]] T step_tolerance() const { return step_tolerance_; }
-
   const Wheel<P>& wheel_;
   const Rail<R>& rail_;
   const WheelPlacement<T>& placement_;
   const SearchOptions<T>& options_;
-  bool can_prove_;                     // given that nothing is too steep or divided too often
-  std::vector<PartMemory<T>>* parts_;  // for each slot; null: nothing is remembered
-  T axle_lateral_;                     // of the axle's direction, rail frame
+  bool can_prove_;           // given that nothing is too steep or divided too often
+  SearchMemory<T>* memory_;  // null: nothing is remembered
+  T axle_lateral_;           // of the axle's direction, rail frame
   T axle_up_;
-  std::array<Plane, 4> planes_;
-  Strip edge_;                   // at the last block's end,
-  int edge_index_ = -1;          // which is this strip of the wheel
-  std::size_t planes_seen_ = 0;  // planes_ has the last ones
-  T margin_;                     // rounding of the bound and of the penetration [m]
+  Plane plane_;  // the last one that for_each_near_block looked at
+  bool has_plane_ = false;
+  Strip edge_;           // at the last block's end,
+  int edge_index_ = -1;  // which is this strip of the wheel
+  T margin_;             // rounding of the bound and of the penetration [m]
   PenetrationBounds<R> bounds_;
-  T step_tolerance_{};  // [m]
+  T step_tolerance_{};  // a last Newton step this long leaves an error of rounding [m]
   ContactResult<T> result_;
   int reached_ = -1;  // the last strip of the wheel that was visited
   Strip last_;

@@ -71,8 +71,6 @@ struct StripNode {
   int first = 0;
   int last = 0;  ///< first + 1: a leaf, the interval between two strips of one piece
   int skip = 0;  ///< the node after this one's subtree; the first child is the next node
-  /// Of the nodes down to blocks: their number in preorder; -1 inside blocks.
-  int slot = -1;
   /// A block: at most StripTree::block_strips intervals of one piece; its parent, if any, is none.
   bool is_block = false;
 };
@@ -82,7 +80,7 @@ struct StripNode {
 template <Real T>
 class StripTree {
  public:
-  static constexpr int block_strips = 16;
+  static constexpr int block_strips = 8;
 
   /// @param spacing strips are at most this far apart [m].
   /// @throws std::invalid_argument unless spacing is finite and > 0 and makes at most 100,000
@@ -117,8 +115,7 @@ class StripTree {
   [[nodiscard]] const T& greatest_radius() const { return greatest_radius_; }
   [[nodiscard]] const std::vector<Strip<T>>& strips() const { return strips_; }
   [[nodiscard]] const std::vector<StripNode<T>>& nodes() const { return nodes_; }
-  /// How many nodes have a slot.
-  [[nodiscard]] int slot_count() const { return slot_count_; }
+  [[nodiscard]] int block_count() const { return block_count_; }
   /// Whether all bounds are proved: the profile has derivative bounds.
   [[nodiscard]] bool is_proved() const { return is_proved_; }
 
@@ -179,7 +176,7 @@ class StripTree {
     node.last = back.first + 1;
     node.is_block =
         above_blocks && front.middle.piece == back.middle.piece && end - begin <= block_strips;
-    if (above_blocks) node.slot = slot_count_++;
+    if (node.is_block) ++block_count_;
     const T lower = at(node.first).lateral, upper = at(node.last).lateral;
     node.centre = lower + (upper - lower) / T(2);
     node.half_width = (upper - lower) / T(2);
@@ -216,7 +213,7 @@ class StripTree {
   T greatest_radius_;
   std::vector<Strip<T>> strips_;
   std::vector<StripNode<T>> nodes_;
-  int slot_count_ = 0;
+  int block_count_ = 0;
   bool is_proved_;
 };
 

@@ -1,10 +1,12 @@
 #pragma once
 /// @file
 /// The ways to find contacts, as values that can be passed to what needs contacts.
-/// May include: core, numerics, profile, surface, contact.
+/// May include: core, numerics, profile, surface, contact, wheelset.
 
+#include <array>
 #include <wheelrail/contact/find_contact.hpp>
 #include <wheelrail/contact/minimum_distance.hpp>
+#include <wheelrail/wheelset/wheelset.hpp>
 
 namespace wheelrail {
 
@@ -18,6 +20,29 @@ struct StripSearch {
                                             const WheelPlacement<T>& placement) const {
     return find_contact(wheel, rail, placement, options);
   }
+};
+
+/// StripSearch with a warm start, for one wheelset that moves by small steps: the same patches in less
+/// time. Keep one for each wheelset; a copy has memories of its own.
+template <Real T>
+class WarmStripSearch {
+ public:
+  /// @note Allocates; searches do not.
+  template <Profile P>
+  explicit WarmStripSearch(const Wheelset<P>& wheelset, const SearchOptions<T>& options = {})
+      : options_(options),
+        memories_{SearchMemory<T>(wheelset.wheel(Side::left)),
+                  SearchMemory<T>(wheelset.wheel(Side::right))} {}
+
+  template <Profile P, Profile R>
+  [[nodiscard]] ContactResult<T> operator()(const Wheel<P>& wheel, const Rail<R>& rail,
+                                            const WheelPlacement<T>& placement) {
+    return find_contact(wheel, rail, placement, memories_[index_of(placement.side)], options_);
+  }
+
+ private:
+  SearchOptions<T> options_;
+  std::array<SearchMemory<T>, 2> memories_;  // ordered as `sides`
 };
 
 /// The minimum distance method, for convex profiles. Called like StripSearch.

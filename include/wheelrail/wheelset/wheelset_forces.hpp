@@ -90,7 +90,8 @@ template <Real T>
 /// The forces of the track on a wheelset.
 /// @param track anything with `rail(side)` and `nearest_frame(side, point_track, guess)`.
 /// @param at where the wheelset is, @param motion how it moves, both in the track frame.
-/// @param search StripSearch for any profile, MinimumDistanceSearch for convex ones.
+/// @param search StripSearch or, from step to step, WarmStripSearch for any profile;
+///   MinimumDistanceSearch for convex ones.
 /// @return patches, forces and the wrench about the axle's centre. The creep moment about a
 ///   contact's normal is neglected (80).
 /// @note Does not allocate. A mirrored input gives the mirrored result to the last bit.
@@ -98,7 +99,7 @@ template <Profile P, class Track, class Search = StripSearch<typename P::Scalar>
 [[nodiscard]] WheelsetForces<typename P::Scalar> wheelset_forces(
     const Wheelset<P>& wheelset, const Track& track, const WheelsetPosition<typename P::Scalar>& at,
     const WheelsetMotion<typename P::Scalar>& motion,
-    const ContactForceModel<typename P::Scalar>& model, const Search& search = {}) {
+    const ContactForceModel<typename P::Scalar>& model, Search&& search = {}) {
   using T = typename P::Scalar;
   WheelsetForces<T> result;
   for (const Side side : sides) {
