@@ -86,8 +86,9 @@ class Study {
   template <class Body>
   void with_scenario(std::size_t s, Body&& body) const {
     if (s == 0) body(convex_wheelset_, minimum_distance_);
-    if (s == 1) body(convex_wheelset_, WarmStripSearch<double>(convex_wheelset_));
-    if (s == 2) body(real_wheelset_, WarmStripSearch<double>(real_wheelset_));
+    if (s == 1)
+      body(convex_wheelset_, WarmStripSearch<double>(convex_wheelset_, {.zone_ends = false}));
+    if (s == 2) body(real_wheelset_, WarmStripSearch<double>(real_wheelset_, {.zone_ends = false}));
   }
 
   // Adds what repetition `r` of one scenario gave; its tables are written by the first one.

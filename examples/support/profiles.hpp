@@ -40,7 +40,7 @@ template <wheelrail::Profile P, class Body>
     return body(wheelrail::MinimumDistanceSearch<double>{
         wheelrail::convex_parts(wheelset.wheel(wheelrail::Side::left).profile()), {}});
   }
-  return body(wheelrail::WarmStripSearch<double>(wheelset));
+  return body(wheelrail::WarmStripSearch<double>(wheelset, {.zone_ends = false}));
 }
 
 [[nodiscard]] inline const wheelrail::Patch<double>& patch_of(

@@ -40,6 +40,16 @@ struct WheelsetCase {
 // its flange stands on the rail head.
 constexpr double greatest_flange_contact = 0.016;
 
+// What finds the patches that are recorded: the same, with their zones' ends.
+template <class Search>
+[[nodiscard]] const Search& recording_search(const Search& search) {
+  return search;
+}
+[[nodiscard]] inline wheelrail::StripSearch<double> recording_search(
+    const wheelrail::WarmStripSearch<double>&) {
+  return {};
+}
+
 // The equations of motion of a wheelset on a track; world and track frame are the same.
 template <class Wheelset, class Track, class Search>
 class WheelsetOnTrack {
@@ -63,10 +73,15 @@ class WheelsetOnTrack {
 
   [[nodiscard]] wheelrail::WheelsetForces<double> forces(
       const wheelrail::RigidBodyState<double>& state) {
+    return forces_by(search_, state);
+  }
+  template <class Finder>
+  [[nodiscard]] wheelrail::WheelsetForces<double> forces_by(
+      Finder& find, const wheelrail::RigidBodyState<double>& state) const {
     const wheelrail::Vector3<double> angular_velocity_world =
         wheelrail::rotation_matrix(state.orientation) * state.angular_velocity_body;
     return wheelset_forces(wheelset_, track_, position(state),
-                           {state.velocity_world, angular_velocity_world}, model_, search_);
+                           {state.velocity_world, angular_velocity_world}, model_, find);
   }
 
   [[nodiscard]] State operator()(double, const State& y) {
@@ -169,6 +184,7 @@ template <class Wheelset, class Track, class Search>
     const Search& search, const WheelsetCase& run,
     const std::function<void(double)>& progress = [](double) {}) {
   WheelsetOnTrack system(wheelset, track, model, search, run);
+  auto recorder = recording_search(search);
   const State start = pack(system.start(run));
   WheelsetHistory history;
   history.records.reserve(static_cast<std::size_t>(run.duration / run.report_interval) + 2);
@@ -178,7 +194,7 @@ template <class Wheelset, class Track, class Search>
       [&](double t, const State& y) {
         const auto state = wheelrail::unpack_rigid_body(y);
         history.records.push_back(
-            {t, state, system.position(state).axle_track, system.forces(state)});
+            {t, state, system.position(state).axle_track, system.forces_by(recorder, state)});
         progress(t);
         return true;
       });

@@ -730,7 +730,8 @@ TEST_CASE("find_contact: a memory changes no bit of the result, whatever it was 
     return lower + (upper - lower) * (static_cast<double>(random()) / 4294967296.0);
   };
   SearchMemory<double> memory(real);
-  long cold_evaluations = 0, warm_evaluations = 0;
+  SearchMemory<double> brief_memory(real);
+  long cold_evaluations = 0, warm_evaluations = 0, brief_evaluations = 0;
   int touching = 0, several = 0;
   double lateral = 0, height = 0, yaw = 0, roll = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -753,6 +754,17 @@ TEST_CASE("find_contact: a memory changes no bit of the result, whatever it was 
     const auto warm = find_contact(real, on.rail(Side::left), placement, memory);
     CAPTURE(i, lateral, height, yaw, roll);
     check_same(cold, warm);
+    const auto brief =
+        find_contact(real, on.rail(Side::left), placement, brief_memory, {.zone_ends = false});
+    REQUIRE(brief.patches.size() == cold.patches.size());
+    for (std::size_t k = 0; k < brief.patches.size(); ++k) {
+      CHECK(brief.patches[k].wheel_lateral == cold.patches[k].wheel_lateral);
+      CHECK(brief.patches[k].penetration == cold.patches[k].penetration);
+      CHECK(brief.patches[k].zone_is_cut == cold.patches[k].zone_is_cut);
+      CHECK(std::isnan(brief.patches[k].zone_lower));
+      CHECK(std::isnan(brief.patches[k].zone_upper));
+    }
+    brief_evaluations += brief.evaluations;
     cold_evaluations += cold.evaluations;
     warm_evaluations += warm.evaluations;
     touching += !cold.patches.empty();
@@ -760,7 +772,9 @@ TEST_CASE("find_contact: a memory changes no bit of the result, whatever it was 
   }
   CHECK(touching > 1000);
   CHECK(several > 5);
+  UNSCOPED_INFO(cold_evaluations << ' ' << warm_evaluations << ' ' << brief_evaluations);
   CHECK(20 * warm_evaluations < 17 * cold_evaluations);
+  CHECK(10 * brief_evaluations < 5 * cold_evaluations);
 }
 
 TEST_CASE("find_contact: zones between two strips are found and counted", "[contact][reference]") {

@@ -343,3 +343,24 @@ TEST_CASE("bracketed_newton, bracketed_root: no allocation", "[numerics][no-allo
         }) == 0);
   CHECK(sum > 1);
 }
+
+TEST_CASE("bracketed_newton: on a grid the root does not depend on the start", "[numerics]") {
+  const auto function = [](double x) {
+    return ValueAndSlope<double>{std::exp(x) - 2 + x, std::exp(x) + 1};
+  };
+  const double exact = 0.44285440100238858;
+  const RootOptions<double> options{.grid = 1e-8};
+  double first = 0;
+  int most = 0;
+  for (int i = 0; i <= 1000; ++i) {
+    const double start = -1 + 3.0 * i / 1000;
+    const auto root = bracketed_newton<double>(function, -1.0, 2.0, std::exp(-1.0) - 3,
+                                               std::exp(2.0), start, options);
+    REQUIRE(root.status == SolveStatus::converged);
+    if (i == 0) first = root.position;
+    CHECK(root.position == first);
+    CHECK(std::abs(root.position - exact) < 4e-16);
+    most = std::max(most, root.iterations);
+  }
+  CHECK(most < 10);
+}

@@ -26,6 +26,8 @@ struct SearchOptions {
   /// Where the penetration varies by at most depth_tolerance [m], a part of the profile is not
   /// divided further: zones shallower than this may be missing, or be one where they are two.
   T depth_tolerance = constant<T>(1e-9L);
+  /// Whether zone_lower and zone_upper of the patches are solved for; otherwise they are NaN.
+  bool zone_ends = true;
   /// Parts are not divided any more once evaluations > maximum_evaluations; `is_proved` is false
   /// then where the search depended on it.
   int maximum_evaluations = 4000;
@@ -53,24 +55,20 @@ class StripWalk {
         bounds_(rail, wheel.strips().greatest_radius(), placement.tan_yaw,
                 T(options.penetration_threshold - margin_)) {
     using std::sqrt;
-    step_tolerance_ = sqrt(epsilon<T>()) * wheel.nominal_radius() / T(4);
+    grid_ = sqrt(epsilon<T>()) * wheel.nominal_radius();
   }
 
   [[nodiscard]] ContactResult<T> run() {
     result_.is_proved = can_prove_;
     if (memory_ == nullptr) {
-      for_each_near_block(T(0), [this](int block) {
-        RailTangent<T> tangent;
-        visit_block(block, tangent);
-      });
+      for_each_near_block(T(0), [this](int block) { visit_block(block); });
     } else {
       const T& threshold = options_.penetration_threshold;
-      auto& blocks = memory_->blocks();
-      if (!memory_->covers(rail_, placement_, threshold)) {
-        memory_->restart(rail_, placement_, threshold);
-        for_each_near_block(memory_->skin(), [&](int block) { blocks.push_back({block, {}}); });
+      if (!memory_->covers(rail_, placement_, threshold, options_.zone_ends)) {
+        memory_->restart(rail_, placement_, threshold, options_.zone_ends);
+        remember_parts();
       }
-      for (auto& block : blocks) visit_block(block.node, block.tangent);
+      for (auto& part : memory_->parts()) visit_remembered(part);
     }
     leave_zone();
     return result_;
@@ -152,27 +150,99 @@ class StripWalk {
     return is_above(plane_, node, clearance);
   }
 
-  // Strips at both ends of a block, then what lies between them. `tangent` is one that kept it from
-  // touching, or will be.
-  void visit_block(int index, RailTangent<T>& tangent) {
+  // Strips at both ends of a block, then what lies between them.
+  void visit_block(int index) {
     const StripNode<T>& node = wheel_.strips().nodes()[static_cast<std::size_t>(index)];
-    if (!(tangent.normal_rail.y() == T(0)) && is_above(plane(tangent), node)) return;
-    const Strip left = node.first == edge_index_ ? edge_ : strip_of_wheel(node.first);
-    if (lies_above(left, node)) {
-      tangent = left.tangent;
-      return;
-    }
-    edge_ = strip_of_wheel(node.last);
-    edge_index_ = node.last;
-    if (lies_above(edge_, node)) {
-      tangent = edge_.tangent;
-      return;
-    }
-    judge_node(index, left, Strip(edge_));
+    const Strip left = edge(node.first);
+    if (lies_above(left, node)) return;
+    const Strip right = edge(node.last);
+    if (lies_above(right, node)) return;
+    judge_node(index, left, right);
   }
 
-  [[nodiscard]] bool lies_above(const Strip& strip, const StripNode<T>& node) const {
-    return strip.exists && rail_.is_convex() && is_above(plane(strip.tangent), node);
+  // A strip of the wheel that the node before may have had too.
+  [[nodiscard]] Strip edge(int index) {
+    if (index != edge_index_) {
+      edge_ = strip_of_wheel(index);
+      edge_index_ = index;
+    }
+    return edge_;
+  }
+
+  [[nodiscard]] bool lies_above(const Strip& strip, const StripNode<T>& node,
+                                const T& clearance = T(0)) const {
+    return strip.exists && rail_.is_convex() && is_above(plane(strip.tangent), node, clearance);
+  }
+
+  // What is near the rail, and what will be known of it during the memory's motion.
+  void remember_parts() {
+    const auto& motion = memory_->motion();
+    const PenetrationBounds<R> bounds(rail_, wheel_.strips().greatest_radius(),
+                                      motion.greatest_tan_yaw(placement_.tan_yaw),
+                                      T(options_.penetration_threshold - margin_));
+    for_each_near_block(motion.distance, [&](int block) {
+      const StripNode<T>& node = wheel_.strips().nodes()[static_cast<std::size_t>(block)];
+      const Strip left = edge(node.first);
+      remember_node(block, left, edge(node.last), bounds);
+    });
+  }
+
+  void remember_node(int index, const Strip& left, const Strip& right,
+                     const PenetrationBounds<R>& bounds) {
+    const auto& motion = memory_->motion();
+    const auto& nodes = wheel_.strips().nodes();
+    const StripNode<T>& node = nodes[static_cast<std::size_t>(index)];
+    if (lies_above(left, node, motion.distance) || lies_above(right, node, motion.distance)) return;
+    const MovingStrip<T> moving_left = bounds.moving(left, node.shape, motion);
+    const MovingStrip<T> moving_right = bounds.moving(right, node.shape, motion);
+    const Verdict verdict = bounds.judge(moving_left, moving_right, node.shape).verdict;
+    if (verdict == Verdict::excluded) return;
+    if (verdict == Verdict::open && node.skip != index + 1) {
+      const StripNode<T>& child = nodes[static_cast<std::size_t>(index + 1)];
+      const Strip middle = strip_of_wheel(child.last);
+      remember_node(index + 1, left, middle, bounds);
+      remember_node(child.skip, middle, right, bounds);
+      return;
+    }
+    RememberedPart<T> part{index, verdict == Verdict::simple, left, right, T(0)};
+    part.left.is_exact = !part.is_simple || !keeps_signs(moving_left, node.first);
+    part.right.is_exact = !part.is_simple || !keeps_signs(moving_right, node.last);
+    part.extremum = extremum_guess(left, right);
+    memory_->parts().push_back(part);
+  }
+
+  // Whether a strip of the wheel need not be looked at during the motion: it deepens to one side, it
+  // is not the deepest itself, as one at a joint may be, and where zones' ends are wanted, it is on
+  // one side of them.
+  [[nodiscard]] bool keeps_signs(const MovingStrip<T>& strip, int index) const {
+    const T& threshold = options_.penetration_threshold;
+    const bool stays_outside = strip.greatest_penetration() < threshold - margin_;
+    const bool stays_inside = threshold + margin_ < strip.least_penetration();
+    const bool keeps_slope = T(0) < strip.least_slope() || strip.greatest_slope() < T(0);
+    return strip.exists && keeps_slope && (stays_outside || !is_joint(index)) &&
+           (stays_outside || stays_inside || !options_.zone_ends);
+  }
+
+  // Whether a strip is the first or the last one of its piece.
+  [[nodiscard]] bool is_joint(int index) const {
+    const auto& strips = wheel_.strips().strips();
+    const auto i = static_cast<std::size_t>(index);
+    return i == 0 || i + 1 == strips.size() || strips[i - 1].piece != strips[i].piece ||
+           strips[i + 1].piece != strips[i].piece;
+  }
+
+  void visit_remembered(RememberedPart<T>& part) {
+    const StripNode<T>& node = wheel_.strips().nodes()[static_cast<std::size_t>(part.node)];
+    const Strip left = part.left.is_exact ? edge(node.first) : part.left;
+    const Strip right = part.right.is_exact ? edge(node.last) : part.right;
+    if (!part.is_simple) {
+      visit_node(part.node, left, right);
+      return;
+    }
+    enter(node.first, left);
+    reached_ = node.last;
+    visit_extremum(left, right, part.extremum);
+    visit(right);
   }
 
   // A node inside a block with the strips at its ends.
@@ -200,7 +270,7 @@ class StripWalk {
     enter(node.first, left);
     reached_ = node.last;
     if (judgement.verdict == Verdict::simple) {
-      visit_extremum(left, right);
+      visit_extremum(left, right, extremum_guess(left, right));
     } else {
       visit_open(left, right, judgement, 0);
     }
@@ -224,14 +294,16 @@ class StripWalk {
     }
     result_.is_proved = result_.is_proved && is_small;
     if (depth == 0) visit_rail_joints(right);
-    visit_extremum(last_, right);
+    visit_extremum(last_, right, extremum_guess(last_, right));
   }
 
   void visit_part(const Strip& left, const Strip& right, int depth) {
     const Judgement<T> judgement = bounds_.judge(
         left, right,
         shape_bounds(wheel_.profile(), left.piece, left.wheel_lateral, right.wheel_lateral));
-    if (judgement.verdict == Verdict::simple) visit_extremum(left, right);
+    if (judgement.verdict == Verdict::simple) {
+      visit_extremum(left, right, extremum_guess(left, right));
+    }
     if (judgement.verdict == Verdict::open) visit_open(left, right, judgement, depth);
   }
 
@@ -242,7 +314,10 @@ class StripWalk {
 
   // Begins at the strip `first` of the wheel unless the walk is there already.
   void enter(int first, const Strip& strip_there) {
-    if (first == reached_) return;
+    if (first == reached_) {
+      if (strip_there.is_exact && !last_.is_exact) visit(strip_there);
+      return;
+    }
     // What was left out in between does not penetrate; two strips at a joint are neighbours.
     const bool neighbours =
         reached_ >= 0 && first == reached_ + 1 && last_.wheel_lateral == strip_there.wheel_lateral;
@@ -316,7 +391,7 @@ class StripWalk {
         result_.status = SearchStatus::not_converged;
         continue;
       }
-      visit_extremum(last_, at);
+      visit_extremum(last_, at, extremum_guess(last_, at));
       visit(at);
     }
   }
@@ -328,50 +403,74 @@ class StripWalk {
                                     (right.wheel_lateral - left.wheel_lateral);
   }
 
+  // Where between two strips the penetration's extremum may be, if there is one.
+  [[nodiscard]] T extremum_guess(const Strip& left, const Strip& right) const {
+    const T secant = left.slope / (left.slope - right.slope);
+    const PenetrationCubic<T> cubic(left, right, options_.penetration_threshold);
+    return between(left, right, cubic.near_extremum(secant), secant);
+  }
+
+  // Whether a minimum between two strips, the left one visited, may part two zones.
+  [[nodiscard]] bool separates_zones(const Strip& left, const Strip& right) const {
+    const bool from_zone = has_side(left) ? penetrates(left) : zone_is_open_;
+    return from_zone && (!has_side(right) || penetrates(right));
+  }
+
+  // Whether it is known of a strip if it penetrates.
+  [[nodiscard]] bool has_side(const Strip& strip) const {
+    return strip.is_exact || options_.zone_ends;
+  }
+
   // Solves for the extremum of the penetration between two strips of one piece, if there is one
   // that can matter: a maximum that may reach the threshold, or a minimum between two that do.
-  void visit_extremum(const Strip& left, const Strip& right) {
+  // `position` is where it is looked for first, and where it was found.
+  void visit_extremum(const Strip& left, const Strip& right, T& position) {
     if (!left.exists || !right.exists || left.slope == T(0) || right.slope == T(0)) return;
     const bool is_maximum = T(0) < left.slope && right.slope < T(0);
     const bool is_minimum = left.slope < T(0) && T(0) < right.slope;
     if (!is_maximum && !is_minimum) return;
-    if (is_minimum && !(penetrates(left) && penetrates(right))) return;
-    const T secant = left.slope / (left.slope - right.slope);
-    const PenetrationCubic<T> cubic(left, right, options_.penetration_threshold);
+    if (is_minimum && !separates_zones(left, right)) return;
     bool lost = false;
-    Strip before;
+    Strip at;
     const auto root = bracketed_newton<T>(
         [&](const T& u) {
-          const Strip at = strip(left.piece, u);
+          at = strip(left.piece, u);
           lost = lost || !at.exists;
-          before = at;
           return ValueAndSlope<T>{at.slope, at.slope_rate};
         },
-        left.wheel_lateral, right.wheel_lateral, left.slope, right.slope,
-        between(left, right, cubic.near_extremum(secant), secant),
+        left.wheel_lateral, right.wheel_lateral, left.slope, right.slope, position,
         // Where the bodies nearly conform, the slope's rounding outweighs its rate.
-        {.step_tolerance = step_tolerance_, .residual_tolerance = T(4) * epsilon<T>()});
+        {.residual_tolerance = T(4) * epsilon<T>(), .grid = grid_});
     if (root.status != SolveStatus::converged || lost) {
       result_.status = SearchStatus::not_converged;
       return;
     }
     // The last step changes an extremum by its square: rounding.
-    before.wheel_lateral = root.position;
-    visit(before);
+    at.wheel_lateral = position = root.position;
+    visit(at);
+  }
+  void visit_extremum(const Strip& left, const Strip& right, T&& position) {
+    visit_extremum(left, right, position);
   }
 
   // The next strip in the order of wheel_lateral: opens, deepens or closes a zone.
   void visit(const Strip& next) {
+    if (!has_side(next)) {
+      last_ = next;
+      return;
+    }
     const bool inside = penetrates(next);
     if (inside && !zone_is_open_) {
       zone_is_open_ = true;
       zone_is_cut_ = !last_.exists;
-      zone_lower_ = last_.exists ? boundary(last_, next) : next.wheel_lateral;
+      zone_lower_ =
+          last_.exists || !options_.zone_ends ? boundary(last_, next) : next.wheel_lateral;
       deepest_ = next;
     } else if (!inside && zone_is_open_) {
       zone_is_cut_ = zone_is_cut_ || !next.exists;
       close_zone(next.exists ? boundary(last_, next) : last_.wheel_lateral);
-    } else if (inside && deepest_.penetration < next.penetration) {
+    } else if (inside && next.is_exact &&
+               (!deepest_.is_exact || deepest_.penetration < next.penetration)) {
       deepest_ = next;
     }
     last_ = next;
@@ -380,7 +479,7 @@ class StripWalk {
   // Ends the walk over neighbouring strips; a zone that is open there ends with the profile.
   void leave_zone() {
     if (zone_is_open_) {
-      zone_is_cut_ = true;
+      zone_is_cut_ = last_.is_exact;  // otherwise it is known that what follows does not penetrate
       close_zone(last_.wheel_lateral);
     }
     last_ = Strip();
@@ -404,6 +503,7 @@ class StripWalk {
 
   // Where the penetration passes the threshold between two neighbouring strips.
   [[nodiscard]] T boundary(const Strip& left, const Strip& right) {
+    if (!options_.zone_ends) return T(0) / T(0);
     if (left.piece != right.piece) return right.wheel_lateral;
     const T& threshold = options_.penetration_threshold;
     const T share = boundary_share(left, right);
@@ -417,7 +517,7 @@ class StripWalk {
         left.wheel_lateral, right.wheel_lateral, T(left.penetration - threshold),
         T(right.penetration - threshold),
         between(left, right, PenetrationCubic<T>(left, right, threshold).near_root(share), share),
-        {.step_tolerance = step_tolerance_, .residual_tolerance = margin_ / T(16)});
+        {.residual_tolerance = margin_ / T(16), .grid = grid_});
     if (root.status != SolveStatus::converged || lost) {
       result_.status = SearchStatus::not_converged;
     }
@@ -426,6 +526,7 @@ class StripWalk {
 
   void close_zone(const T& zone_upper) {
     zone_is_open_ = false;
+    ++result_.evaluations;
     const ProfilePoint<T> point = wheel_.profile().evaluate(deepest_.piece, deepest_.wheel_lateral);
     const LocusPoint<T> locus = locus_point(wheel_, placement_, deepest_.wheel_lateral, point);
     const ClosestPoint<T> foot = rail_foot(rail_.profile(), locus.lateral, locus.up);
@@ -433,7 +534,7 @@ class StripWalk {
         wheel_, rail_, placement_, deepest_.wheel_lateral, point, locus.angle, foot.lateral,
         Vector3<T>(T(0), foot.normal_rail.x(), foot.normal_rail.y()), foot.penetration);
     patch.zone_lower = zone_lower_;
-    patch.zone_upper = zone_upper;
+    patch.zone_upper = options_.zone_ends ? zone_upper : zone_lower_;
     patch.zone_is_cut = zone_is_cut_;
     if (options_.maximum_penetration < patch.penetration) result_.status = SearchStatus::too_deep;
     if (!result_.patches.push_back(patch)) result_.status = SearchStatus::too_many_patches;
@@ -453,7 +554,7 @@ class StripWalk {
   int edge_index_ = -1;  // which is this strip of the wheel
   T margin_;             // rounding of the bound and of the penetration [m]
   PenetrationBounds<R> bounds_;
-  T step_tolerance_{};  // a last Newton step this long leaves an error of rounding [m]
+  T grid_{};  // a last Newton step this long leaves an error of rounding [m]
   ContactResult<T> result_;
   int reached_ = -1;  // the last strip of the wheel that was visited
   Strip last_;

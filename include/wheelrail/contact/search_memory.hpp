@@ -4,73 +4,80 @@
 /// the answer. May include: core, numerics, profile, surface, contact/placement.
 ///
 /// The idea is that of neighbour lists in molecular dynamics (L. Verlet, Computer "experiments" on
-/// classical fluids I, Phys. Rev. 159 (1967) 98-103). A search that finds parts of the wheel more
-/// than a `skin` above the rail need not look at them again before the wheel has moved by that much:
-/// each was under a plane that the rail lies under, and no point of the wheel has moved farther than
-/// d = |o' - o| + (|u| + R) |a' - a| from one that it may be taken for. o is the profile's origin
-/// seen along the rail, which is straight there; a the axle's direction; a wheel may be turned about
-/// its axle at will; |u| and R are the greatest of the profile.
+/// classical fluids I, Phys. Rev. 159 (1967) 98-103), carried on to the contacts. Until the wheel
+/// has moved by a `skin`, all that was proved with that much to spare need not be proved again: that
+/// a part of the wheel stays above the rail, that the penetration has one extremum at most over
+/// another, that it has passed the threshold or rises at its end (detail/penetration_bounds.hpp).
+/// Seen along the rail, which is straight there, no point of the wheel has moved farther than
+/// |o' - o| + (|u| + R) |a' - a| from one that it may be taken for: o is the profile's origin, a the
+/// axle's direction, |u| and R the greatest of the profile; turning about the axle does not matter.
 
 #include <vector>
-#include <wheelrail/contact/placement.hpp>
+#include <wheelrail/contact/detail/penetration_bounds.hpp>
 
 namespace wheelrail {
 
-/// A line in the rail's cross-section that the whole rail lies under: normal . point <= height.
+namespace detail {
+
+// A part of the wheel near the rail, and what is known of it while the memory covers the placement.
 template <Real T>
-struct RailTangent {
-  Vector2<T> normal_rail{T(0), T(0)};  ///< outward: (lateral, up); zero: none
-  T height{};                          ///< [m]
+struct RememberedPart {
+  int node = 0;            // of the strip tree
+  bool is_simple = false;  // the penetration has one extremum at most; otherwise nothing is known
+  LocusStrip<T> left, right;  // at its ends; not exact: their signs hold, do not look at them again
+  T extremum{};               // where it was last
 };
 
-/// The blocks of one wheel's strip tree that were near the rail at some placement. Whatever it holds,
-/// in any order of poses, the patches are those of a cold search to the last bit. The caller owns it:
-/// one for each wheel on its rail, used by one search at a time.
+}  // namespace detail
+
+/// What a search on one wheel knows of its surroundings at some placement. Whatever it holds, in any
+/// order of poses, a search gives what a cold one gives. The caller owns it: one for each wheel on
+/// its rail, used by one search at a time.
 template <Real T>
 class SearchMemory {
  public:
-  /// A block that is or was near the rail, and the tangent that last kept it from touching.
-  struct Block {
-    int node = 0;
-    RailTangent<T> tangent;
-  };
-
   /// @param skin how far the wheel may move before its surroundings are looked at anew [m].
   /// @throws std::invalid_argument unless skin is finite and > 0.
   /// @note Allocates; searches do not.
   template <Profile P>
-  explicit SearchMemory(const Wheel<P>& wheel, const T& skin = constant<T>(1e-4L))
-      : skin_(skin),
-        reach_(detail::max(detail::magnitude(wheel.profile().lower()),
-                           detail::magnitude(wheel.profile().upper())) +
-               wheel.strips().greatest_radius()) {
+  explicit SearchMemory(const Wheel<P>& wheel, const T& skin = constant<T>(5e-5L))
+      : motion_{skin, detail::max(detail::magnitude(wheel.profile().lower()),
+                                  detail::magnitude(wheel.profile().upper())) +
+                          wheel.strips().greatest_radius()} {
     detail::require_positive("search memory: skin", skin, "[m]");
-    blocks_.reserve(static_cast<std::size_t>(wheel.strips().block_count()));
+    parts_.reserve(wheel.strips().strips().size());
   }
 
-  [[nodiscard]] const T& skin() const { return skin_; }
+  /// The motion that is allowed for.
+  [[nodiscard]] const detail::WheelMotion<T>& motion() const { return motion_; }
   /// Those near the rail, from the flange to the field side.
-  [[nodiscard]] std::vector<Block>& blocks() { return blocks_; }
+  [[nodiscard]] std::vector<detail::RememberedPart<T>>& parts() { return parts_; }
 
-  /// Whether all blocks that penetrate `rail` deeper than `threshold` [m] at `placement` are here.
+  /// Whether what is remembered holds at `placement`, for zones deeper than `threshold` [m], and with
+  /// their ends if these are wanted.
   template <Profile R>
   [[nodiscard]] bool covers(const Rail<R>& rail, const WheelPlacement<T>& placement,
-                            const T& threshold) const {
+                            const T& threshold, bool zone_ends) const {
     using std::sqrt;
-    if (!is_valid_ || !(checksum_ == rail.checksum()) || !(threshold_ == threshold)) return false;
+    if (!is_valid_ || !(checksum_ == rail.checksum()) || !(threshold_ == threshold) ||
+        zone_ends_ != zone_ends) {
+      return false;
+    }
     const T lateral = placement.position_rail.y() - lateral_;
     const T up = placement.position_rail.z() - up_;
     const Vector3<T> turn = axle_rail(placement) - axle_rail_;
-    const T moved = sqrt(T(lateral * lateral + up * up)) + reach_ * sqrt(dot(turn, turn));
-    return moved < skin_;
+    const T moved = sqrt(T(lateral * lateral + up * up)) + motion_.reach * sqrt(dot(turn, turn));
+    return moved < motion_.distance;
   }
 
-  /// Forgets all blocks: those within the skin at `placement` will be put here.
+  /// Forgets all: what is known at `placement` will be put here.
   template <Profile R>
-  void restart(const Rail<R>& rail, const WheelPlacement<T>& placement, const T& threshold) {
-    blocks_.clear();
+  void restart(const Rail<R>& rail, const WheelPlacement<T>& placement, const T& threshold,
+               bool zone_ends) {
+    parts_.clear();
     checksum_ = rail.checksum();
     threshold_ = threshold;
+    zone_ends_ = zone_ends;
     lateral_ = placement.position_rail.y();
     up_ = placement.position_rail.z();
     axle_rail_ = axle_rail(placement);
@@ -83,10 +90,10 @@ class SearchMemory {
                       placement.cos_yaw * placement.sin_roll);
   }
 
-  T skin_;
-  T reach_;
-  std::vector<Block> blocks_;
+  detail::WheelMotion<T> motion_;
+  std::vector<detail::RememberedPart<T>> parts_;
   bool is_valid_ = false;
+  bool zone_ends_ = true;
   T checksum_{};
   T threshold_{};
   T lateral_{}, up_{};

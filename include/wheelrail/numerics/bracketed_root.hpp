@@ -28,6 +28,10 @@ struct RootOptions {
   T residual_tolerance = T(0);
   /// Evaluations of f at most, the bracket's ends not counted.
   int maximum_iterations = 100;
+  /// Of bracketed_newton: f is evaluated at multiples of about this only [unit of x], until a step
+  /// leads back to where it came from: that step's end is the root. So the root does not depend on
+  /// the start, but by what rounding may decide between two neighbouring multiples. 0: anywhere.
+  T grid = T(0);
 };
 
 /// Invariant: status == converged implies that `position` lies in the bracket that was given.
@@ -45,6 +49,13 @@ namespace detail {
 template <Real T>
 [[nodiscard]] T root_step_tolerance(const T& x, const RootOptions<T>& options) {
   return max(options.step_tolerance, T(2) * epsilon<T>() * magnitude(x));
+}
+
+/// x rounded to a multiple of about `grid`, by what a sum with a large number cannot hold.
+template <Real T>
+[[nodiscard]] T rounded_to(const T& x, const T& grid) {
+  const T large = grid / epsilon<T>();
+  return T(x + large) - large;
 }
 
 }  // namespace detail
@@ -72,7 +83,9 @@ template <Real T, class Function>
     return result;
   }
   const bool rising = value_lower < T(0);
-  T x = detail::clamp(start, lower, upper);
+  const bool on_grid = T(0) < options.grid;
+  T x = detail::clamp(on_grid ? detail::rounded_to(start, options.grid) : start, lower, upper);
+  T before = x;
   T step_before_last = upper - lower;
   T last_step = step_before_last;
   while (result.iterations < options.maximum_iterations) {
@@ -94,12 +107,15 @@ template <Real T, class Function>
     const T next = usable ? newton : T(lower + (upper - lower) / T(2));
     step_before_last = last_step;
     last_step = next - x;
-    if (detail::magnitude(last_step) <= detail::root_step_tolerance(x, options)) {
+    const T next_x = on_grid ? detail::rounded_to(next, options.grid) : next;
+    if (detail::magnitude(last_step) <= detail::root_step_tolerance(x, options) ||
+        (on_grid && (next_x == x || (next_x == before && 1 < result.iterations)))) {
       result.position = next;
       result.status = SolveStatus::converged;
       return result;
     }
-    x = next;
+    before = x;
+    x = next_x;
   }
   result.status = SolveStatus::iteration_limit;
   return result;

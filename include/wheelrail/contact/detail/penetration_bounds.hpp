@@ -24,22 +24,9 @@
 /// L' and L'' follow from (57) and (59) with t = tan(yaw): L'' = -F'' (0, cos s_w) and terms in t^2
 /// times F', F'' and F'''; those with F''' lie along L' but for t^4.
 
-#include <wheelrail/contact/search_memory.hpp>
+#include <wheelrail/contact/detail/locus_strip.hpp>
 
 namespace wheelrail::detail {
-
-/// A strip with its penetration and d penetration / d wheel_lateral.
-template <Real T>
-struct LocusStrip {
-  T wheel_lateral{};       ///< [m]
-  T rail_lateral{};        ///< of the foot [m]
-  T penetration{};         ///< [m]
-  T slope{};               ///< [-]
-  T slope_rate{};          ///< d slope / d wheel_lateral, without terms of yaw squared [1/m]
-  RailTangent<T> tangent;  ///< of the rail, at the foot
-  int piece = -1;          ///< of the wheel's profile
-  bool exists = false;     ///< false where the strip has no locus point, or the rail no foot for it
-};
 
 enum class Verdict {
   excluded,  ///< the penetration stays below the threshold
@@ -53,6 +40,19 @@ struct Judgement {
   Verdict verdict = Verdict::open;
   T variation{};           ///< by which it varies at most [m]
   bool is_bounded = true;  ///< false where the yaw is too great for the bounds as they are
+};
+
+/// How far a wheel may move from where it is, seen along the rail: |o' - o| + reach |a' - a| <=
+/// distance, o its profile's origin, a the axle's direction; reach >= |u| + R for all its strips.
+template <Real T>
+struct WheelMotion {
+  T distance{};  ///< [m]
+  T reach{};     ///< [m]
+
+  /// Not less than |tan yaw| after the motion.
+  [[nodiscard]] T greatest_tan_yaw(const T& tan_yaw) const {
+    return magnitude(tan_yaw) + constant<T>(1.1L) * (T(1) + tan_yaw * tan_yaw) * distance / reach;
+  }
 };
 
 /// The bounds of one wheel at one yaw on one rail.
@@ -69,8 +69,60 @@ class PenetrationBounds {
         squared_tan_yaw_(tan_yaw * tan_yaw),
         threshold_(threshold) {}
 
-  /// By 2, 3 and 4 of this file's head. @param shape holds between the strips.
-  [[nodiscard]] Judgement<T> judge(const LocusStrip<T>& left, const LocusStrip<T>& right,
+  /// What a strip keeps within during a motion, by the derivatives of (57) and (59) by yaw and roll.
+  /// These bounds are of the greatest yaw in it. @param shape holds at the strip.
+  [[nodiscard]] MovingStrip<T> moving(const LocusStrip<T>& strip, const ShapeBounds<T>& shape,
+                                      const WheelMotion<T>& motion) const {
+    using std::sqrt;
+    MovingStrip<T> result;
+    result.wheel_lateral = strip.wheel_lateral;
+    const T yaw = sqrt(squared_tan_yaw_), widened = T(1) + squared_tan_yaw_;
+    const T slope = shape.steepest, sine = yaw * slope;
+    if (!strip.exists || !(sine * sine < constant<T>(0.5L))) return result;
+    const T cosine = sqrt(T(T(1) - sine * sine));
+    // Yaw and roll each change by at most this much; the locus and its rate by rolling and yawing:
+    const T turn = constant<T>(1.01L) * widened * motion.distance / motion.reach;
+    const T by_turn = motion.reach * (T(1) + yaw) + radius_ * sine * yaw +
+                      radius_ * sine * (T(1) + widened + slope * widened / cosine);
+    const T travel = max(motion.distance, T(turn * by_turn));
+    const T bend = radius_ * shape.second;
+    const T speed =
+        sqrt(T(T(1) + slope * slope)) * (T(1) + squared_tan_yaw_ * bend / square(cosine));
+    const T rate_change =
+        turn *
+        (speed + yaw + (slope * slope + bend) * (T(1) + widened) * yaw +
+         widened * sine * (slope * slope + T(2) * bend + square(T(sine / cosine)) * bend) / cosine);
+    // The foot of a point in a convex body's neighbourhood moves no farther than the point outside
+    // it, and at most twice as far where the point is less than half a radius of curvature inside.
+    const T deepest = max(T(0), T(strip.penetration + travel));
+    result.foot = strip.rail_lateral;
+    result.foot_change = deepest == T(0) ? travel : T(T(2) * travel);
+    const R& rail = rail_.profile();
+    if (!(rail.lower() < result.least_foot()) || !(result.greatest_foot() < rail.upper()) ||
+        !(deepest * rail_.greatest_curvature(result.least_foot(), result.greatest_foot()) <
+          constant<T>(0.5L))) {
+      return result;
+    }
+    const auto normal_at = [&](const T& lateral) {
+      const Vector3<T> normal_rail = Rail<R>::normal_rail(rail.evaluate(lateral));
+      return Vector2<T>(normal_rail.y(), normal_rail.z());
+    };
+    result.normal_lower = normal_at(result.least_foot());
+    result.normal_upper = normal_at(result.greatest_foot());
+    const T normal_change = sqrt(T(square(T(result.normal_upper.x() - result.normal_lower.x())) +
+                                   square(T(result.normal_upper.y() - result.normal_lower.y()))));
+    result.penetration = strip.penetration;
+    result.penetration_change = travel;
+    result.slope = strip.slope;
+    result.slope_change = speed * normal_change + rate_change;
+    result.exists = is_finite(result.slope_change);
+    return result;
+  }
+
+  /// By 2, 3 and 4 of this file's head. @param left, right LocusStrip, or MovingStrip where the
+  /// verdict has to hold while the wheel moves. @param shape holds between the strips.
+  template <class End>
+  [[nodiscard]] Judgement<T> judge(const End& left, const End& right,
                                    const ShapeBounds<T>& shape) const {
     using std::sqrt;
     const Judgement<T> unknown{Verdict::open, radius_, left.exists || right.exists};
@@ -91,12 +143,12 @@ class PenetrationBounds {
                             twist * (slope_squared * (T(2) + slope) +
                                      radius * shape.second * (T(1) + slope / cosine)));
     const T steepest =
-        (max(magnitude(left.slope), magnitude(right.slope)) + (hollow + by_yaw) * width) /
+        (max(greatest_slope_of(left), greatest_slope_of(right)) + (hollow + by_yaw) * width) /
         (T(1) - twist * width);
     const T bend = hollow + by_yaw + twist * steepest;
     const T variation = steepest * width;
     if (!may_penetrate(left, right, bend)) return {Verdict::excluded, variation};
-    if (bend * width < right.slope || bend * width < -left.slope) {
+    if (bend * width < right.least_slope() || bend * width < -left.greatest_slope()) {
       return {Verdict::simple, variation};
     }
     const T speed_squared = T(1) + square(shape.flattest) -
@@ -105,28 +157,39 @@ class PenetrationBounds {
     const T sliding_squared = speed_squared - square(steepest);
     if (!(T(0) < sliding_squared)) return {Verdict::open, variation};
     // So the foot moves one way, from the left strip's to the right one's, and so does the normal.
-    const Vector2<T>& one = left.tangent.normal_rail;
-    const Vector2<T>& other = right.tangent.normal_rail;
-    const bool passes_top = (one.x() < T(0)) != (other.x() < T(0));
-    const T least_up = min(one.y(), other.y());
-    const T greatest_up = passes_top ? T(1) : max(one.y(), other.y());
+    const T first_foot = min(left.least_foot(), right.least_foot());
+    const T last_foot = max(left.greatest_foot(), right.greatest_foot());
+    T least_up = T(1), greatest_up = T(0);
+    bool leans_left = false, leans_right = false;
+    const auto take = [&](const Vector2<T>& normal) {
+      least_up = min(least_up, normal.y());
+      greatest_up = max(greatest_up, normal.y());
+      (normal.x() < T(0) ? leans_left : leans_right) = true;
+    };
+    take(left.normal_at_least_foot());
+    take(left.normal_at_greatest_foot());
+    take(right.normal_at_least_foot());
+    take(right.normal_at_greatest_foot());
+    if (leans_left && leans_right) greatest_up = T(1);
     const T wheel_bend =
         bend - hollow +
         shape.greatest_second * (shape.greatest_second < T(0) ? T(least_up * cosine) : greatest_up);
-    const T curvature = rail_.least_curvature(left.rail_lateral, right.rail_lateral);
-    const T gap = max(T(0), T(variation - min(left.penetration, right.penetration)));
+    const T curvature = rail_.least_curvature(first_foot, last_foot);
+    const T gap =
+        max(T(0), T(variation - min(left.least_penetration(), right.least_penetration())));
     const T greatest_bend =
         max(T(0), T(wheel_bend - sliding_squared * curvature / (T(1) + curvature * gap)));
-    if (greatest_bend * width < right.slope || greatest_bend * width < -left.slope ||
-        greatest_bend == T(0)) {
+    if (greatest_bend * width < right.least_slope() ||
+        greatest_bend * width < -left.greatest_slope() || greatest_bend == T(0)) {
       return {Verdict::simple, variation};
     }
     if (!may_penetrate(left, right, greatest_bend)) return {Verdict::excluded, variation};
     // Convex, where the wheel is more hollow than the rail is curved?
     const T stretch = T(1) + yaw * radius * shape.second / square(cosine);
     const T greatest_speed = (T(1) + slope_squared) * square(stretch);
-    const T deepest = max(T(0), T(max(left.penetration, right.penetration) + variation));
-    const T greatest_curvature = rail_.greatest_curvature(left.rail_lateral, right.rail_lateral);
+    const T deepest =
+        max(T(0), T(max(left.greatest_penetration(), right.greatest_penetration()) + variation));
+    const T greatest_curvature = rail_.greatest_curvature(first_foot, last_foot);
     const T wheel_bend_least =
         least_up * cosine * shape.least_second - by_yaw - twist * steepest -
         T(2) * yaw * radius * square(shape.second) / (square(cosine) * cosine);
@@ -137,13 +200,20 @@ class PenetrationBounds {
   }
 
  private:
+  template <class End>
+  [[nodiscard]] static T greatest_slope_of(const End& end) {
+    return max(magnitude(end.least_slope()), magnitude(end.greatest_slope()));
+  }
+
   // Whether the penetration can pass the threshold, its second derivative being at most `bend`.
-  [[nodiscard]] bool may_penetrate(const LocusStrip<T>& left, const LocusStrip<T>& right,
-                                   const T& bend) const {
+  template <class End>
+  [[nodiscard]] bool may_penetrate(const End& left, const End& right, const T& bend) const {
     const T width = right.wheel_lateral - left.wheel_lateral;
     const T bulge = bend * width * width / T(2);
-    const T from_left = left.penetration + max(T(0), left.slope) * width + bulge;
-    const T from_right = right.penetration + max(T(0), T(-right.slope)) * width + bulge;
+    const T from_left =
+        left.greatest_penetration() + max(T(0), left.greatest_slope()) * width + bulge;
+    const T from_right =
+        right.greatest_penetration() + max(T(0), T(-right.least_slope())) * width + bulge;
     return threshold_ < min(from_left, from_right);
   }
 

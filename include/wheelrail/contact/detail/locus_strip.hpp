@@ -1,0 +1,60 @@
+#pragma once
+// One strip of a contact search, as it is, and as it may become while the wheel moves a little.
+// May include: core, numerics, profile, surface, contact/placement.
+
+#include <wheelrail/contact/placement.hpp>
+
+namespace wheelrail::detail {
+
+// A line in the rail's cross-section that the whole rail lies under: normal . point <= height.
+template <Real T>
+struct RailTangent {
+  Vector2<T> normal_rail{T(0), T(0)};  // outward: (lateral, up); zero: none
+  T height{};                          // [m]
+};
+
+// A strip with its penetration and d penetration / d wheel_lateral.
+template <Real T>
+struct LocusStrip {
+  T wheel_lateral{};       // [m]
+  T rail_lateral{};        // of the foot [m]
+  T penetration{};         // [m]
+  T slope{};               // [-]
+  T slope_rate{};          // d slope / d wheel_lateral; as find_contact.hpp has it [1/m]
+  RailTangent<T> tangent;  // of the rail, at the foot
+  int piece = -1;          // of the wheel's profile
+  bool exists = false;     // false where the strip has no locus point, or the rail no foot for it
+  bool is_exact = true;    // false: the wheel has moved since, but no sign has changed
+
+  // A strip that does not move has ranges of one value.
+  [[nodiscard]] const T& least_penetration() const { return penetration; }
+  [[nodiscard]] const T& greatest_penetration() const { return penetration; }
+  [[nodiscard]] const T& least_slope() const { return slope; }
+  [[nodiscard]] const T& greatest_slope() const { return slope; }
+  [[nodiscard]] const T& least_foot() const { return rail_lateral; }
+  [[nodiscard]] const T& greatest_foot() const { return rail_lateral; }
+  [[nodiscard]] const Vector2<T>& normal_at_least_foot() const { return tangent.normal_rail; }
+  [[nodiscard]] const Vector2<T>& normal_at_greatest_foot() const { return tangent.normal_rail; }
+};
+
+// What a strip keeps within while the wheel moves.
+template <Real T>
+struct MovingStrip {
+  T wheel_lateral{};
+  T penetration{}, penetration_change{};  // [m]
+  T slope{}, slope_change{};              // [-]
+  T foot{}, foot_change{};                // [m]
+  Vector2<T> normal_lower, normal_upper;  // of the rail at both ends of the foot's range
+  bool exists = false;                    // in all of its range, and nothing of it is unbounded
+
+  [[nodiscard]] T least_penetration() const { return penetration - penetration_change; }
+  [[nodiscard]] T greatest_penetration() const { return penetration + penetration_change; }
+  [[nodiscard]] T least_slope() const { return slope - slope_change; }
+  [[nodiscard]] T greatest_slope() const { return slope + slope_change; }
+  [[nodiscard]] T least_foot() const { return foot - foot_change; }
+  [[nodiscard]] T greatest_foot() const { return foot + foot_change; }
+  [[nodiscard]] const Vector2<T>& normal_at_least_foot() const { return normal_lower; }
+  [[nodiscard]] const Vector2<T>& normal_at_greatest_foot() const { return normal_upper; }
+};
+
+}  // namespace wheelrail::detail

@@ -1,0 +1,100 @@
+#include <cmath>
+#include <random>
+#include <wheelrail/contact/detail/penetration_bounds.hpp>
+#include <wheelrail/contact/locus.hpp>
+#include <wheelrail/contact/rail_foot.hpp>
+#include <wheelrail/contact/search_memory.hpp>
+#include <wheelrail/profile/rail_head.hpp>
+#include <wheelrail/profile/s1002.hpp>
+
+#include "support/catch.hpp"
+
+using namespace wheelrail;
+
+namespace {
+
+WheelPlacement<double> placed(double lateral, double up, double yaw, double roll) {
+  WheelPlacement<double> placement;
+  placement.position_rail = {0, lateral, up};
+  placement.sin_yaw = std::sin(yaw);
+  placement.cos_yaw = std::cos(yaw);
+  placement.tan_yaw = std::tan(yaw);
+  placement.sin_roll = std::sin(roll);
+  placement.cos_roll = std::cos(roll);
+  return placement;
+}
+
+}  // namespace
+
+TEST_CASE("moving: no strip leaves its bounds while the wheel moves", "[contact][random]") {
+  const auto profile = s1002<double>();
+  const Wheel wheel(profile, 0.43);
+  const Rail rail(uic50<double>());
+  std::mt19937 random(11);
+  const auto between = [&random](double lower, double upper) {
+    return lower + (upper - lower) * (static_cast<double>(random()) / 4294967296.0);
+  };
+  const auto strip_at = [&](const WheelPlacement<double>& placement, double u) {
+    const auto locus = locus_point(wheel, placement, u, profile.evaluate(u));
+    const auto foot = rail_foot(rail.profile(), locus.lateral, locus.up);
+    detail::LocusStrip<double> strip;
+    strip.wheel_lateral = u;
+    strip.rail_lateral = foot.lateral;
+    strip.penetration = foot.penetration;
+    strip.slope =
+        -(foot.normal_rail.x() * locus.lateral_rate + foot.normal_rail.y() * locus.up_rate);
+    strip.exists = locus.exists;
+    return strip;
+  };
+  int bounded = 0;
+  double penetration_share = 0, slope_share = 0, foot_share = 0;
+  for (int i = 0; i < 20000; ++i) {
+    SearchMemory<double> memory(wheel, between(1e-5, 2e-4));
+    const auto& motion = memory.motion();
+    const double lateral = between(-0.008, 0.008), up = between(0.4290, 0.4305);
+    const double yaw = between(-0.03, 0.03), roll = between(-0.01, 0.01);
+    const auto before = placed(lateral, up, yaw, roll);
+    // The farthest that the memory covers, in a random direction.
+    const double direction[] = {between(-1, 1), between(-1, 1), 2 * between(-1, 1),
+                                2 * between(-1, 1)};
+    double scale = 4 * motion.distance;
+    const auto after = [&] {
+      return placed(lateral + scale * direction[0], up + scale * direction[1],
+                    yaw + scale * direction[2], roll + scale * direction[3]);
+    };
+    memory.restart(rail, before, 0, true);
+    while (!memory.covers(rail, after(), 0, true)) scale *= 0.98;
+
+    const double u = between(-0.036, 0.04), half_width = between(1e-4, 2e-3);
+    const int piece = piece_of(profile, u);
+    const double lower = std::max(u - half_width, profile.joint(piece));
+    const double upper = std::min(u + half_width, profile.joint(piece + 1));
+    const auto shape = shape_bounds(profile, piece, lower, upper);
+    const detail::PenetrationBounds<RailHead<double>> bounds(
+        rail, wheel.strips().greatest_radius(), motion.greatest_tan_yaw(before.tan_yaw), 0.0);
+    const auto strip = strip_at(before, u);
+    const auto moving = bounds.moving(strip, shape, motion);
+    if (!moving.exists) continue;
+    ++bounded;
+    const auto moved = strip_at(after(), u);
+    CAPTURE(i, u, lateral, up, yaw, roll, scale);
+    const auto share = [](double least, double value, double greatest) {
+      return std::abs(2 * value - least - greatest) / (greatest - least);
+    };
+    const double penetration =
+        share(moving.least_penetration(), moved.penetration, moving.greatest_penetration());
+    const double slope = share(moving.least_slope(), moved.slope, moving.greatest_slope());
+    const double foot = share(moving.least_foot(), moved.rail_lateral, moving.greatest_foot());
+    REQUIRE(penetration <= 1);
+    REQUIRE(slope <= 1);
+    REQUIRE(foot <= 1);
+    penetration_share = std::max(penetration_share, penetration);
+    slope_share = std::max(slope_share, slope);
+    foot_share = std::max(foot_share, foot);
+  }
+  CHECK(bounded > 10000);
+  // And the bounds are not idle.
+  CHECK(penetration_share > 0.8);
+  CHECK(slope_share > 0.3);
+  CHECK(foot_share > 0.5);
+}
