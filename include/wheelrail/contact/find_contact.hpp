@@ -7,6 +7,7 @@
 ///
 /// What is proved (ContactResult::is_proved), and from what, stands in detail/penetration_bounds.hpp.
 
+#include <wheelrail/contact/detail/near_blocks.hpp>
 #include <wheelrail/contact/detail/penetration_bounds.hpp>
 #include <wheelrail/contact/patch.hpp>
 #include <wheelrail/contact/search_memory.hpp>
@@ -49,9 +50,8 @@ class StripWalk {
         options_(options),
         can_prove_(wheel.strips().is_proved() && rail.is_proved_convex()),
         memory_(memory),
-        axle_lateral_(placement.cos_roll * placement.cos_yaw),
-        axle_up_(placement.sin_roll * placement.cos_yaw),
         margin_(T(64) * epsilon<T>() * wheel.nominal_radius()),
+        near_(wheel, rail, placement, T(options.penetration_threshold - margin_)),
         bounds_(rail, wheel.strips().greatest_radius(), placement.tan_yaw,
                 T(options.penetration_threshold - margin_)) {
     using std::sqrt;
@@ -61,7 +61,8 @@ class StripWalk {
   [[nodiscard]] ContactResult<T> run() {
     result_.is_proved = can_prove_;
     if (memory_ == nullptr) {
-      for_each_near_block(T(0), [this](int block) { visit_block(block); });
+      const int feet = near_.for_each(T(0), [this](int block) { visit_block(block); });
+      result_.evaluations += feet;
     } else {
       const T& threshold = options_.penetration_threshold;
       if (!memory_->covers(rail_, placement_, threshold, options_.zone_ends)) {
@@ -77,77 +78,10 @@ class StripWalk {
  private:
   using Strip = LocusStrip<T>;
 
-  // A tangent of the rail, as the bound of this file's head needs it.
-  struct Plane {
-    T along_axle{};   // n.a
-    T across_axle{};  // sqrt(1 - (n.a)^2)
-    T height{};       // n.(P - o) [m]
-    RailTangent<T> tangent;
-  };
-
-  [[nodiscard]] Plane plane(const RailTangent<T>& tangent) const {
-    using std::sqrt;
-    const Vector2<T>& normal = tangent.normal_rail;
-    const T along = normal.x() * axle_lateral_ + normal.y() * axle_up_;
-    return {along, sqrt(T(T(1) - along * along)),
-            tangent.height - normal.x() * placement_.position_rail.y() -
-                normal.y() * placement_.position_rail.z(),
-            tangent};
-  }
-
   [[nodiscard]] static RailTangent<T> tangent_at(const ClosestPoint<T>& foot,
                                                  const LocusPoint<T>& locus) {
     return {foot.normal_rail, foot.penetration + foot.normal_rail.x() * locus.lateral +
                                   foot.normal_rail.y() * locus.up};
-  }
-
-  // Whether g of this file's head is below the threshold over the strips of a node, and by how much.
-  [[nodiscard]] bool is_above(const Plane& plane, const StripNode<T>& node,
-                              const T& clearance = T(0)) const {
-    const T bound =
-        plane.height - node.centre * plane.along_axle +
-        wheel_.radius(node.point) * plane.across_axle +
-        magnitude(T(node.point.slope * plane.across_axle - plane.along_axle)) * node.half_width +
-        node.rise * plane.across_axle;
-    return bound < options_.penetration_threshold - margin_ - clearance;
-  }
-
-  // Calls visit(block) for the blocks, in order, of which no tangent of the rail proves that they
-  // stay `clearance` above it.
-  template <class Visit>
-  void for_each_near_block(const T& clearance, Visit&& visit) {
-    const auto& nodes = wheel_.strips().nodes();
-    const int end = static_cast<int>(nodes.size());
-    for (int index = 0; index < end;) {
-      const StripNode<T>& node = nodes[static_cast<std::size_t>(index)];
-      if (is_far(node, clearance)) {
-        index = node.skip;
-      } else if (node.is_block) {
-        visit(index);
-        index = node.skip;
-      } else {
-        ++index;
-      }
-    }
-  }
-
-  // By the last tangent that was looked at, or by the one nearest to the node's centre.
-  [[nodiscard]] bool is_far(const StripNode<T>& node, const T& clearance) {
-    if (!rail_.is_convex() || T(0.002) < node.rise) return false;
-    if (has_plane_ && is_above(plane_, node, clearance)) return true;
-    if (node.is_block) return false;  // the strips at its ends tell more
-    ++result_.evaluations;
-    // The lowest point of the strip, as if there were no yaw.
-    const T radius = wheel_.radius(node.point);
-    const T lateral = placement_.position_rail.y() + node.centre * placement_.cos_roll +
-                      radius * placement_.sin_roll;
-    const T up = placement_.position_rail.z() + node.centre * placement_.sin_roll -
-                 radius * placement_.cos_roll;
-    const ClosestPoint<T> foot = rail_foot(rail_.profile(), lateral, up);
-    has_plane_ = true;
-    plane_ = plane({foot.normal_rail,
-                    foot.penetration + foot.normal_rail.x() * lateral + foot.normal_rail.y() * up});
-    return is_above(plane_, node, clearance);
   }
 
   // Strips at both ends of a block, then what lies between them.
@@ -171,7 +105,7 @@ class StripWalk {
 
   [[nodiscard]] bool lies_above(const Strip& strip, const StripNode<T>& node,
                                 const T& clearance = T(0)) const {
-    return strip.exists && rail_.is_convex() && is_above(plane(strip.tangent), node, clearance);
+    return strip.exists && near_.is_above(strip.tangent, node, clearance);
   }
 
   // What is near the rail, and what will be known of it during the memory's motion.
@@ -180,11 +114,12 @@ class StripWalk {
     const PenetrationBounds<R> bounds(rail_, wheel_.strips().greatest_radius(),
                                       motion.greatest_tan_yaw(placement_.tan_yaw),
                                       T(options_.penetration_threshold - margin_));
-    for_each_near_block(motion.distance, [&](int block) {
+    const int feet = near_.for_each(motion.distance, [&](int block) {
       const StripNode<T>& node = wheel_.strips().nodes()[static_cast<std::size_t>(block)];
       const Strip left = edge(node.first);
       remember_node(block, left, edge(node.last), bounds);
     });
+    result_.evaluations += feet;
   }
 
   void remember_node(int index, const Strip& left, const Strip& right,
@@ -546,13 +481,10 @@ class StripWalk {
   const SearchOptions<T>& options_;
   bool can_prove_;           // given that nothing is too steep or divided too often
   SearchMemory<T>* memory_;  // null: nothing is remembered
-  T axle_lateral_;           // of the axle's direction, rail frame
-  T axle_up_;
-  Plane plane_;  // the last one that for_each_near_block looked at
-  bool has_plane_ = false;
-  Strip edge_;           // at the last block's end,
-  int edge_index_ = -1;  // which is this strip of the wheel
-  T margin_;             // rounding of the bound and of the penetration [m]
+  Strip edge_;               // at the last block's end,
+  int edge_index_ = -1;      // which is this strip of the wheel
+  T margin_;                 // rounding of the bound and of the penetration [m]
+  NearBlocks<P, R> near_;
   PenetrationBounds<R> bounds_;
   T grid_{};  // a last Newton step this long leaves an error of rounding [m]
   ContactResult<T> result_;
