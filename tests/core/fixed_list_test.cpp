@@ -1,10 +1,40 @@
 #include <numeric>
+#include <string>
+#include <utility>
 #include <wheelrail/core/fixed_list.hpp>
 
 #include "support/allocation_counter.hpp"
 #include "support/catch.hpp"
 
 using namespace wheelrail;
+
+namespace {
+
+// Cannot be made without a value, and counts what lives, what was copied and what was moved.
+class Counted {
+ public:
+  explicit Counted(int value) : value_(value) { ++living; }
+  Counted(const Counted& other) : value_(other.value_) { ++living, ++copied; }
+  Counted(Counted&& other) noexcept : value_(std::exchange(other.value_, -1)) { ++living, ++moved; }
+  Counted& operator=(const Counted&) = delete;
+  Counted& operator=(Counted&&) = delete;
+  ~Counted() { --living; }
+
+  [[nodiscard]] int value() const { return value_; }
+
+  static inline int living = 0, copied = 0, moved = 0;
+
+ private:
+  int value_;
+};
+
+FixedList<Counted, 8> counted(int first, int size) {
+  FixedList<Counted, 8> list;
+  for (int i = 0; i < size; ++i) REQUIRE(list.push_back(Counted(first + i)));
+  return list;
+}
+
+}  // namespace
 
 TEST_CASE("FixedList: empty at first, full at its capacity, in order of insertion", "[core]") {
   FixedList<int, 3> list;
@@ -55,6 +85,74 @@ TEST_CASE("FixedList: works in a constant expression", "[core]") {
     return pushed ? list.size() : 0U;
   }();
   STATIC_REQUIRE(size == 2);
+}
+
+TEST_CASE("FixedList: copies and moves hold the elements, and the copy is its own", "[core]") {
+  FixedList<std::string, 3> list;
+  REQUIRE(list.push_back("a string too long for the small buffer"));
+  REQUIRE(list.push_back("b"));
+  REQUIRE(list.push_back(list[0]));
+  FixedList<std::string, 3> copy(list);
+  list[1] = std::string("c");
+  REQUIRE(copy.size() == 3);
+  CHECK(copy[0] == "a string too long for the small buffer");
+  CHECK(copy[1] == "b");
+  CHECK(copy[2] == copy[0]);
+  copy = list;
+  CHECK(copy[1] == "c");
+  const auto& same = copy;
+  copy = same;
+  CHECK(copy.size() == 3);
+  CHECK(copy[2] == list[2]);
+  list.clear();
+  copy = list;
+  CHECK(copy.empty());
+  REQUIRE(list.push_back("d"));
+  FixedList<std::string, 3> moved(std::move(list));
+  copy = std::move(moved);
+  REQUIRE(copy.size() == 1);
+  CHECK(copy[0] == "d");
+}
+
+TEST_CASE("FixedList: what is in the list lives, nothing else, and each element is copied once",
+          "[core]") {
+  REQUIRE(Counted::living == 0);
+  {
+    FixedList<Counted, 8> list = counted(10, 3);
+    CHECK(Counted::living == 3);
+    Counted::copied = Counted::moved = 0;
+    FixedList<Counted, 8> copy(list);
+    CHECK(Counted::living == 6);
+    CHECK(Counted::copied == 3);
+    CHECK(copy[2].value() == 12);
+    const auto& same = copy;
+    copy = same;
+    CHECK(Counted::copied == 3);
+    CHECK(copy[2].value() == 12);
+
+    FixedList<Counted, 8> other = counted(20, 5);
+    Counted::copied = Counted::moved = 0;
+    copy = other;
+    CHECK(Counted::living == 3 + 5 + 5);
+    CHECK(Counted::copied == 5);
+    CHECK(copy[4].value() == 24);
+    copy = list;
+    CHECK(Counted::living == 3 + 3 + 5);
+    CHECK(copy[2].value() == 12);
+
+    Counted::copied = 0;
+    FixedList<Counted, 8> taken(std::move(other));
+    copy = std::move(list);
+    CHECK(Counted::copied == 0);
+    CHECK(Counted::moved == 5 + 3);
+    CHECK(taken[4].value() == 24);
+    CHECK(copy[2].value() == 12);
+    taken.clear();
+    CHECK(Counted::living == 3 + 3 + 5);
+    CHECK(taken.push_back(Counted(1)));
+    CHECK(taken[0].value() == 1);
+  }
+  CHECK(Counted::living == 0);
 }
 
 TEST_CASE("FixedList: no allocation", "[core][no-alloc]") {

@@ -93,8 +93,8 @@ TEST_CASE("hertz_shape: m, n and C over the angle are the exact ones", "[force][
     const auto shape = hertz_shape(of_angle(row.theta), unbounded);
     CHECK(shape.status == HertzStatus::regular);
     CHECK(shape.iterations <= 3);
-    CHECK(shape.major_coefficient == Approx(row.m).epsilon(1e-9));
-    CHECK(shape.minor_coefficient == Approx(row.n).epsilon(1e-9));
+    CHECK(shape.major_coefficient() == Approx(row.m).epsilon(1e-9));
+    CHECK(shape.minor_coefficient() == Approx(row.n).epsilon(1e-9));
     CHECK(shape.stiffness_coefficient == Approx(row.c).epsilon(1e-7));
   }
 }
@@ -105,8 +105,18 @@ TEST_CASE("hertz_shape: C at Goldsmith's curvature ratios is the exact one", "[f
     const auto shape = hertz_shape<double>({row.ratio, 1.0});
     CHECK(shape.stiffness_coefficient == Approx(row.c).epsilon(1e-9));
     CHECK(shape.axis_ratio == Approx(row.axis_ratio).epsilon(1e-9));
-    CHECK(shape.major_coefficient == Approx(row.m).epsilon(1e-9));
-    CHECK(shape.minor_coefficient == Approx(row.n).epsilon(1e-9));
+    CHECK(shape.major_coefficient() == Approx(row.m).epsilon(1e-9));
+    CHECK(shape.minor_coefficient() == Approx(row.n).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("hertz_shape: one Newton step up to a curvature ratio of 100, few beyond", "[force]") {
+  for (int i = 0; i <= 120; ++i) {
+    const double ratio = std::pow(10.0, i / 20.0);
+    CAPTURE(ratio);
+    const int limit = ratio <= 100 ? 1 : 3;
+    CHECK(hertz_shape<double>({1.0, ratio}).iterations <= limit);
+    CHECK(hertz_shape<double>({ratio, 1.0}).iterations <= limit);
   }
 }
 

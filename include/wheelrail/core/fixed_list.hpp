@@ -3,17 +3,33 @@
 /// A list with a capacity known at compile time, so that results hold several patches without heap.
 /// May include: core, std.
 
-#include <array>
 #include <cstddef>
+#include <memory>
+#include <type_traits>
+#include <utility>
 #include <wheelrail/core/assert.hpp>
 
 namespace wheelrail {
 
 /// Up to @p Capacity elements in insertion order. Invariant: size() <= Capacity.
-/// @note No allocation. @p Element must be default-constructible.
+/// @note No allocation. What is not in the list is neither constructed nor copied: an empty list
+///   costs nothing, however large its elements. A list moved from keeps its moved-from elements.
 template <class Element, std::size_t Capacity>
 class FixedList {
  public:
+  constexpr FixedList() : size_(0) {}
+  constexpr FixedList(const FixedList& other) : FixedList() { append(other); }
+  constexpr FixedList(FixedList&& other) noexcept(std::is_nothrow_move_constructible_v<Element>)
+      : FixedList() {
+    append(std::move(other));
+  }
+  constexpr FixedList& operator=(const FixedList& other) { return assign(other); }
+  constexpr FixedList& operator=(FixedList&& other) noexcept(
+      std::is_nothrow_move_constructible_v<Element>) {
+    return assign(std::move(other));
+  }
+  constexpr ~FixedList() { clear(); }
+
   [[nodiscard]] constexpr std::size_t size() const { return size_; }
   [[nodiscard]] constexpr bool empty() const { return size_ == 0; }
   [[nodiscard]] constexpr bool full() const { return size_ == Capacity; }
@@ -22,11 +38,14 @@ class FixedList {
   /// Appends @p element. @return false, and nothing changes, when the list is full.
   [[nodiscard]] constexpr bool push_back(const Element& element) {
     if (full()) return false;
-    elements_[size_++] = element;
+    construct_back(element);
     return true;
   }
 
-  constexpr void clear() { size_ = 0; }
+  constexpr void clear() {
+    if constexpr (!std::is_trivially_destructible_v<Element>) std::destroy(begin(), end());
+    size_ = 0;
+  }
 
   /// @pre index < size()
   [[nodiscard]] constexpr const Element& operator[](std::size_t index) const {
@@ -38,13 +57,40 @@ class FixedList {
     return elements_[index];
   }
 
-  [[nodiscard]] constexpr const Element* begin() const { return elements_.data(); }
-  [[nodiscard]] constexpr const Element* end() const { return elements_.data() + size_; }
-  [[nodiscard]] constexpr Element* begin() { return elements_.data(); }
-  [[nodiscard]] constexpr Element* end() { return elements_.data() + size_; }
+  [[nodiscard]] constexpr const Element* begin() const { return elements_; }
+  [[nodiscard]] constexpr const Element* end() const { return elements_ + size_; }
+  [[nodiscard]] constexpr Element* begin() { return elements_; }
+  [[nodiscard]] constexpr Element* end() { return elements_ + size_; }
 
  private:
-  std::array<Element, Capacity> elements_{};
+  template <class Source>
+  constexpr void construct_back(Source&& element) {
+    if constexpr (std::is_trivial_v<Element>) {
+      elements_[size_] = element;  // may be done in a constant expression, too
+    } else {
+      std::construct_at(elements_ + size_, std::forward<Source>(element));
+    }
+    ++size_;
+  }
+
+  constexpr void append(const FixedList& other) {
+    for (const Element& element : other) construct_back(element);
+  }
+  constexpr void append(FixedList&& other) {
+    for (Element& element : other) construct_back(std::move(element));
+  }
+
+  template <class Source>
+  constexpr FixedList& assign(Source&& other) {
+    if (this == &other) return *this;
+    clear();
+    append(std::forward<Source>(other));
+    return *this;
+  }
+
+  union {  // so that only the first size_ elements live
+    Element elements_[Capacity];
+  };
   std::size_t size_ = 0;
 };
 

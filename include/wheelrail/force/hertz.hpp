@@ -67,27 +67,6 @@ enum class HertzStatus {
   return "unknown";
 }
 
-/// What the curvatures alone decide. Invariants, to rounding: 0 < axis_ratio <= 1,
-/// minor_coefficient == axis_ratio * major_coefficient; rolling_is_major == (A <= bounded B).
-template <Real T>
-struct HertzShape {
-  T axis_ratio{};                ///< minor over major axis g [-]
-  T major_coefficient{};         ///< m of (75) [-]
-  T minor_coefficient{};         ///< n of (76) [-]
-  T stiffness_coefficient{};     ///< C of (67) [-], 1/pi for a circle
-  T curvature_sum{};             ///< A + B, B bounded [1/m]
-  bool rolling_is_major = true;  ///< the ellipse's major axis lies along the rolling
-  int iterations = 0;            ///< Newton steps
-  HertzStatus status = HertzStatus::not_finite;
-};
-
-/// The semi-axes of a contact [m]: a along the rolling, b across. Both are 0 without a force.
-template <Real T>
-struct HertzEllipse {
-  T a{};
-  T b{};
-};
-
 namespace detail {
 
 // The cube root of x >= 0, to ln x / 3 rounding units; 0 of 0, where its slope is infinite.
@@ -100,8 +79,33 @@ template <Real T>
 
 }  // namespace detail
 
+/// What the curvatures alone decide. Invariants, to rounding: 0 < axis_ratio <= 1;
+/// rolling_is_major == (A <= bounded B).
+template <Real T>
+struct HertzShape {
+  T axis_ratio{};                ///< minor over major axis g [-]
+  T major_cubed{};               ///< m^3 [-]
+  T stiffness_coefficient{};     ///< C of (67) [-], 1/pi for a circle
+  T curvature_sum{};             ///< A + B, B bounded [1/m]
+  bool rolling_is_major = true;  ///< the ellipse's major axis lies along the rolling
+  int iterations = 0;            ///< Newton steps
+  HertzStatus status = HertzStatus::not_finite;
+
+  /// m of (75) [-]
+  [[nodiscard]] T major_coefficient() const { return detail::cube_root(major_cubed); }
+  /// n of (76) [-]
+  [[nodiscard]] T minor_coefficient() const { return axis_ratio * major_coefficient(); }
+};
+
+/// The semi-axes of a contact [m]: a along the rolling, b across. Both are 0 without a force.
+template <Real T>
+struct HertzEllipse {
+  T a{};
+  T b{};
+};
+
 /// The shape of the contact, by Newton's method for ln g on the logarithm of the curvature ratio:
-/// nearly a straight line, so that two steps reach rounding.
+/// nearly a straight line, so that from its fit one step reaches rounding in double.
 /// @param curvatures [1/m]; longitudinal > 0, which a wheel on a rail always has.
 /// @return see HertzStatus. Smooth in the curvatures, also where A = B; a kink at the bound of B.
 /// @note No allocation. The last Newton step, at the root, lifts it to derivatives.
@@ -117,7 +121,7 @@ template <Real T>
   const bool finite = is_finite(a) && is_finite(curvatures.lateral);
   if (!finite || a <= T(0)) {
     const T not_a_number = T(0) / T(0);
-    shape.axis_ratio = shape.major_coefficient = shape.minor_coefficient = not_a_number;
+    shape.axis_ratio = shape.major_cubed = not_a_number;
     shape.stiffness_coefficient = shape.curvature_sum = not_a_number;
     if (finite) shape.status = HertzStatus::no_longitudinal_curvature;
     return shape;
@@ -127,13 +131,17 @@ template <Real T>
   shape.status = bounded ? HertzStatus::lateral_curvature_bounded : HertzStatus::regular;
   shape.curvature_sum = a + b;
   shape.rolling_is_major = a <= b;
-  const T log_ratio = shape.rolling_is_major ? T(log(T(b / a))) : T(log(T(a / b)));
-  // ln g is odd in ln ratio, with the slope -2/3 at 0. The fit is good to 0.001 up to a ratio of
-  // 1e6; it saves steps and decides nothing.
+  const T ratio = shape.rolling_is_major ? T(b / a) : T(a / b);
+  const T log_ratio = log(ratio);
+  // ln g is odd in ln ratio, with the slope -2/3 at 0. The fit, through Chebyshev's nodes, is good
+  // to 6e-9 up to a ratio of 100, beyond any wheel on a rail, and to 0.02 up to 1e6; it saves steps
+  // and decides nothing.
   const T s = log_ratio * log_ratio;
   T x = constant<T>(-2.0L / 3.0L) * log_ratio *
-        (T(1) + s * (constant<T>(0.0415L) + s * constant<T>(0.0001762L))) /
-        (T(1) + s * (constant<T>(0.04601L) + s * constant<T>(0.0002181L)));
+        (T(1) + s * (constant<T>(0.100726192L) +
+                     s * (constant<T>(0.00255885389L) + s * constant<T>(1.27582432e-5L)))) /
+        (T(1) + s * (constant<T>(0.105355819L) +
+                     s * (constant<T>(0.00285371961L) + s * constant<T>(1.55538714e-5L))));
   T g{};
   T first{};
   T second{};
@@ -141,7 +149,9 @@ template <Real T>
   while (!converged && shape.iterations < maximum_iterations) {
     g = exp(x);
     const CompleteElliptic<T> integrals = complete_elliptic(g);
-    const T residual = log(T(integrals.b / integrals.d)) - T(2) * x - log_ratio;
+    // What B/(g^2 D) is too large by, as a factor, and its logarithm to third order.
+    const T excess = integrals.b / (integrals.d * g * g * ratio);
+    const T residual = T(2) * (excess - T(1)) / (excess + T(1));
     const T slope = T(-3) - (integrals.c - integrals.d) * (T(1) / integrals.b + T(1) / integrals.d);
     const T step = -residual / slope;
     x = x + step;
@@ -155,10 +165,9 @@ template <Real T>
   }
   if (!converged) shape.status = HertzStatus::iteration_limit;
   shape.axis_ratio = g;
-  shape.major_coefficient = detail::cube_root(T(T(2) * second / (pi<T>() * g * g)));
-  shape.minor_coefficient = g * shape.major_coefficient;
-  const T base = T(2) * pi<T>() * shape.major_coefficient / (T(3) * first);
-  shape.stiffness_coefficient = T(3) * sqrt(T(3)) / (T(8) * pi<T>()) * base * sqrt(base);
+  shape.major_cubed = T(2) * second / (pi<T>() * g * g);
+  // 3 sqrt(3) / (8 pi) (2 pi m / (3 K))^1.5 with this m.
+  shape.stiffness_coefficient = sqrt(T(second / first)) / (T(2) * g * first);
   return shape;
 }
 
@@ -176,10 +185,9 @@ template <Real T>
 [[nodiscard]] HertzEllipse<T> hertz_ellipse(const HertzShape<T>& shape,
                                             const MaterialPair<T>& materials,
                                             const T& normal_force) {
-  const T size = detail::cube_root(
-      T(T(3) * pi<T>() * materials.compliance() * normal_force / (T(4) * shape.curvature_sum)));
-  const T major = shape.major_coefficient * size;
-  const T minor = shape.minor_coefficient * size;
+  const T major = detail::cube_root(T(T(3) * pi<T>() * materials.compliance() * normal_force *
+                                      shape.major_cubed / (T(4) * shape.curvature_sum)));
+  const T minor = shape.axis_ratio * major;
   return shape.rolling_is_major ? HertzEllipse<T>{major, minor} : HertzEllipse<T>{minor, major};
 }
 

@@ -134,8 +134,13 @@ class KalkerTable {
                  : beyond(last, detail::kalker_long_asymptotes(poisson_ratio_, g), long_blends_, t);
     }
     T u = is_short ? T(t - T(1)) : T(T(19) - t);
-    std::size_t i = 0;
-    for (; i + 1 < last && T(1) <= u; ++i) u = u - T(1);
+    std::size_t i = 0;  // the whole part of u, but within the table: halving, for any scalar
+    for (int stride = 16; 0 < stride; stride /= 2) {
+      if (i + static_cast<std::size_t>(stride) < last && T(stride) <= u) {
+        i += static_cast<std::size_t>(stride);
+        u = u - T(stride);
+      }
+    }
     const std::array<T, 4> powers = detail::kalker_powers(is_short ? g : T(T(2) - g));
     const auto value = [&](std::size_t c) { return T(powers[c] * curves_[c].at(i, u)); };
     return {value(0), value(1), value(2), value(3)};

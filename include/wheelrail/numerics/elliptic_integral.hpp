@@ -39,15 +39,15 @@ template <Real T>
   T sum = T(0);  // of 2^n c_n^2 / e^4 over n >= 1
   for (int n = 1; n <= maximum_iterations; ++n) {
     const T half_difference = (a - g) / T(2);
-    const T mean = (a + g) / T(2);
-    g = sqrt(T(a * g));
-    a = mean;
+    const T product = a * g;
+    a = (a + g) / T(2);
     // c_n = c_(n-1)^2 / (4 a_n); for n = 1 the numerator is e^2, which squared is left out.
     term = detail::square(T((n == 1 ? T(1) : T(e_squared * term)) / (T(4) * a)));
     power = T(2) * power;
     sum = sum + power * term;
-    // The means now differ by the square of this difference: below the rounding unit.
+    // The next means differ by the square of this difference: below the rounding unit.
     if (half_difference * half_difference <= epsilon<T>() * a * a) break;
+    g = sqrt(product);
   }
   CompleteElliptic<T> result;
   result.first = pi<T>() / (T(2) * a);

@@ -53,16 +53,14 @@ template <Real T>
                                         const WheelsetMotion<T>& motion,
                                         const ContactForceModel<T>& model) {
   using std::sqrt;
-  PatchForce<T> result;
-  result.patch = patch;
-  result.position_track = frame.position_track(patch.position_rail);
-  result.normal_track = frame.direction_track(patch.normal_rail);
+  const Vector3<T> position_track = frame.position_track(patch.position_rail);
+  const Vector3<T> normal_track = frame.direction_track(patch.normal_rail);
   // The rail frame's x points backwards on the right.
-  result.longitudinal_track =
+  const Vector3<T> longitudinal_track =
       outboard_sign<T>(frame.side) * frame.direction_track(patch.longitudinal_rail);
-  result.lateral_track = cross(result.normal_track, result.longitudinal_track);
+  const Vector3<T> lateral_track = cross(normal_track, longitudinal_track);
 
-  const Vector3<T> arm_track = result.position_track - at.position_track;
+  const Vector3<T> arm_track = position_track - at.position_track;
   const Vector3<T> velocity_track =  // (66); the rail is at rest
       motion.velocity_track + cross(motion.angular_velocity_track, arm_track);
   ContactKinematics<T> contact;
@@ -70,19 +68,52 @@ template <Real T>
   contact.curvatures =
       hertz_curvatures(patch.wheel_longitudinal_curvature, T(0), patch.wheel_lateral_curvature,
                        patch.rail_lateral_curvature);
-  contact.longitudinal_velocity = dot(velocity_track, result.longitudinal_track);
-  contact.lateral_velocity = dot(velocity_track, result.lateral_track);
-  contact.normal_velocity = dot(velocity_track, result.normal_track);
-  contact.spin_velocity = dot(motion.angular_velocity_track, result.normal_track);
+  contact.longitudinal_velocity = dot(velocity_track, longitudinal_track);
+  contact.lateral_velocity = dot(velocity_track, lateral_track);
+  contact.normal_velocity = dot(velocity_track, normal_track);
+  contact.spin_velocity = dot(motion.angular_velocity_track, normal_track);
   contact.forward_speed = outboard_sign<T>(frame.side) *
                           dot(motion.velocity_track, Vector3<T>(frame.axes_track.col(0)));
   contact.speed = sqrt(dot(motion.velocity_track, motion.velocity_track));
-  result.contact = model(contact);
-  result.penetration_velocity = -contact.normal_velocity;
-  result.force_track = result.contact.normal * result.normal_track +
-                       result.contact.creep.longitudinal * result.longitudinal_track +
-                       result.contact.creep.lateral * result.lateral_track;
-  return result;
+  const ContactForce<T> force = model(contact);
+  return {.patch = patch,
+          .contact = force,
+          .position_track = position_track,
+          .longitudinal_track = longitudinal_track,
+          .lateral_track = lateral_track,
+          .normal_track = normal_track,
+          .force_track = force.normal * normal_track +
+                         force.creep.longitudinal * longitudinal_track +
+                         force.creep.lateral * lateral_track,
+          .penetration_velocity = -contact.normal_velocity};
+}
+
+/// One wheel's part of wheelset_forces().
+template <Profile P, class Track, class Search>
+[[nodiscard]] WheelForces<typename P::Scalar> wheel_forces(
+    const Wheelset<P>& wheelset, const Track& track, Side side,
+    const WheelsetPosition<typename P::Scalar>& at,
+    const WheelsetMotion<typename P::Scalar>& motion,
+    const ContactForceModel<typename P::Scalar>& model, Search& search) {
+  using T = typename P::Scalar;
+  const Vector3<T> wheel_track = wheelset.wheel_track(side, at);
+  const RailFrame<T> frame = track.nearest_frame(side, wheel_track, at.arc_length);
+  const ContactResult<T> found =
+      search(wheelset.wheel(side), track.rail(side),
+             place_wheel(frame, wheel_track, Vector3<T>(outboard_sign<T>(side) * at.axle_track)));
+  WheelForces<T> wheel;
+  wheel.status = found.status;
+  wheel.arc_length = frame.arc_length;
+  wheel.evaluations = found.evaluations;
+  for (const Patch<T>& patch : found.patches) {
+    const PatchForce<T> force = patch_force(patch, frame, at, motion, model);
+    wheel.force_track += force.force_track;
+    wheel.moment_track +=
+        cross(Vector3<T>(force.position_track - at.position_track), force.force_track);
+    // As many as the search can return.
+    static_cast<void>(wheel.patches.push_back(force));
+  }
+  return wheel;
 }
 
 }  // namespace detail
@@ -101,25 +132,12 @@ template <Profile P, class Track, class Search = StripSearch<typename P::Scalar>
     const WheelsetMotion<typename P::Scalar>& motion,
     const ContactForceModel<typename P::Scalar>& model, Search&& search = {}) {
   using T = typename P::Scalar;
-  WheelsetForces<T> result;
-  for (const Side side : sides) {
-    const Vector3<T> wheel_track = wheelset.wheel_track(side, at);
-    const RailFrame<T> frame = track.nearest_frame(side, wheel_track, at.arc_length);
-    const ContactResult<T> found =
-        search(wheelset.wheel(side), track.rail(side),
-               place_wheel(frame, wheel_track, Vector3<T>(outboard_sign<T>(side) * at.axle_track)));
-    WheelForces<T>& wheel = result.wheels[index_of(side)];
-    wheel.status = found.status;
-    wheel.arc_length = frame.arc_length;
-    wheel.evaluations = found.evaluations;
-    for (const Patch<T>& patch : found.patches) {
-      const PatchForce<T> force = detail::patch_force(patch, frame, at, motion, model);
-      wheel.force_track += force.force_track;
-      wheel.moment_track +=
-          cross(Vector3<T>(force.position_track - at.position_track), force.force_track);
-      // As many as the search can return.
-      static_cast<void>(wheel.patches.push_back(force));
-    }
+  // Each wheel's result is made in its place: large lists are neither cleared nor copied.
+  const auto of = [&](Side side) {
+    return detail::wheel_forces(wheelset, track, side, at, motion, model, search);
+  };
+  WheelsetForces<T> result{.wheels = {of(Side::left), of(Side::right)}};
+  for (const WheelForces<T>& wheel : result.wheels) {
     result.force_track += wheel.force_track;
     result.moment_track += wheel.moment_track;
   }
