@@ -62,7 +62,10 @@ class MultibodySystem {
   template <StateVector State>
   [[nodiscard]] State rate(const State& y, std::span<const Wrench<T>> external_wrenches) const {
     const Motions motions = motions_of(y);
-    auto [forces, result] = without_joints(y, motions, external_wrenches);
+    State result(y.size());
+    Forces forces = without_joints(
+        y, motions, external_wrenches,
+        [&result](Eigen::Index row, const T& elongation_rate) { result(row) = elongation_rate; });
     add_reactions(motions, forces);
     for (int i = 0; i < count(); ++i) {
       const Vector6<T> acceleration = forces[i].cwiseProduct(inverse_masses_[i]);
@@ -81,11 +84,12 @@ class MultibodySystem {
                                         std::size_t joint) const {
     WHEELRAIL_ASSERT(joint < model_.joints.size());
     const Motions motions = motions_of(y);
-    const Forces forces = without_joints(y, motions, external_wrenches).first;
+    const Forces forces =
+        without_joints(y, motions, external_wrenches, [](Eigen::Index, const T&) {});
     for (const Group& group : groups_) {
       for (std::size_t i = 0; i < group.size(); ++i) {
         if (group[i] != joint) continue;
-        const GroupEquations equations(model_.joints, group, motions);
+        const GroupEquations equations(model_.joints, {group.begin(), group.size()}, motions);
         const Vector6<T> on_b = equations.reaction(i, 1, multipliers(equations, forces));
         const BodyMotion<T>& b = motions[equations.bodies(i)[1]];
         return {on_b.template head<3>(), b.body_to_world * on_b.template tail<3>()};
@@ -169,7 +173,7 @@ class MultibodySystem {
   /// Adds to @p forces what the joints do to each body.
   void add_reactions(const Motions& motions, Forces& forces) const {
     for (const Group& group : groups_) {
-      const GroupEquations equations(model_.joints, group, motions);
+      const GroupEquations equations(model_.joints, {group.begin(), group.size()}, motions);
       const auto lambda = multipliers(equations, forces);
       for (std::size_t i = 0; i < equations.size(); ++i) {
         for (std::size_t side = 0; side < 2; ++side) {
@@ -207,12 +211,12 @@ class MultibodySystem {
     return sum;
   }
 
-  /// g of (91) of each body, and a column that is zero but for the rates of the series springs.
-  template <class State>
-  [[nodiscard]] std::pair<Forces, State> without_joints(
-      const State& y, const Motions& motions, std::span<const Wrench<T>> external_wrenches) const {
+  /// g of (91) of each body. @param take_rate is told the row and the rate of each series spring.
+  template <class State, class TakeRate>
+  [[nodiscard]] Forces without_joints(const State& y, const Motions& motions,
+                                      std::span<const Wrench<T>> external_wrenches,
+                                      const TakeRate& take_rate) const {
     WHEELRAIL_ASSERT(external_wrenches.size() == body_count());
-    State series_rates = State::Zero(y.size());
     detail::BodyArray<Wrench<T>, MaximumBodies> wrenches;
     for (int i = 0; i < count(); ++i) {
       wrenches[i] = external_wrenches[static_cast<std::size_t>(i)];
@@ -226,11 +230,13 @@ class MultibodySystem {
       const Vector3<T>& force_world = act.force_b_world;
       const Vector3<T> arm_a_world = act.point_world - a.position_world;
       const Vector3<T> arm_b_world = act.point_world - b.position_world;
-      wrenches[e.a] += {-force_world, -cross(arm_a_world, force_world)};
-      wrenches[e.b] += {force_world, cross(arm_b_world, force_world)};
+      wrenches[e.a].force_world -= force_world;
+      wrenches[e.a].moment_world -= cross(arm_a_world, force_world);
+      wrenches[e.b].force_world += force_world;
+      wrenches[e.b].moment_world += cross(arm_b_world, force_world);
       Eigen::Index row = series_offsets_[i];
       for (Eigen::Index k = 0; k < 3; ++k) {
-        if (T(0) < e.series_stiffness_a(k)) series_rates(row++) = act.elongation_rate_a(k);
+        if (T(0) < e.series_stiffness_a(k)) take_rate(row++, act.elongation_rate_a(k));
       }
     }
     for (const TorsionSpring<T>& e : model_.torsion_springs) {
@@ -238,11 +244,13 @@ class MultibodySystem {
       wrenches[e.a].moment_world -= moment_world;
       wrenches[e.b].moment_world += moment_world;
     }
-    Forces forces{Vector6<T>::Zero()};
+    Forces forces;
     for (int i = 0; i < count(); ++i) {
-      forces[i] = generalized_force(body(i), unpack_rigid_body(y, i), wrenches[i]);
+      const Vector3<T> spin_body = y.template segment<3>(RigidBodyLayout::offset(i) +
+                                                         RigidBodyLayout::angular_velocity_body);
+      forces[i] = generalized_force(body(i), motions[i].body_to_world, spin_body, wrenches[i]);
     }
-    return {forces, series_rates};
+    return forces;
   }
 
   MultibodyModel<T> model_;

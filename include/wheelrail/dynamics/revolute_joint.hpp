@@ -19,10 +19,12 @@ template <Real T>
 struct JointEquations {
   using Jacobian = Eigen::Matrix<T, 5, 6, Eigen::DontAlign>;
 
-  Vector5<T> residual;                ///< Phi [m, -]
-  Vector5<T> residual_rate;           ///< dPhi/dt [m/s, 1/s]
-  std::array<Jacobian, 2> jacobians;  ///< Phi_q of a and of b; the ground's is to be left out
-  Vector5<T> gamma;                   ///< the terms quadratic in velocities [m/s2, 1/s2]
+  Vector5<T> residual;       ///< Phi [m, -]
+  Vector5<T> residual_rate;  ///< dPhi/dt [m/s, 1/s]
+  /// Phi_q of a and of b; the ground's is to be left out. The columns of the translations are those
+  /// of I and of -I.
+  std::array<Jacobian, 2> jacobians;
+  Vector5<T> gamma;  ///< the terms quadratic in velocities [m/s2, 1/s2]
 };
 
 /// The point and the axis of a stay on those of b: Nikravesh (1988), 7.2.2. Rotation about the axis
@@ -74,30 +76,33 @@ class RevoluteJoint {
     e.residual_rate.template head<3>() =
         (a.velocity_world - b.velocity_world) + (turning_a - turning_b);
     e.gamma.template head<3>() = cross(wb, turning_b) - cross(wa, turning_a);
+    for (auto& jacobian : e.jacobians) jacobian.setZero();
     for (Eigen::Index i = 0; i < 3; ++i) {
       // Rows of v + A (omega_body x point): e_i . A (w x s) = (s x A^T e_i) . w.
       const Vector3<T> row_a = a.body_to_world.row(i).transpose();
       const Vector3<T> row_b = b.body_to_world.row(i).transpose();
-      e.jacobians[0].row(i) << Vector3<T>::Unit(i).transpose(), cross(point_a_, row_a).transpose();
-      e.jacobians[1].row(i) << -Vector3<T>::Unit(i).transpose(),
-          -cross(point_b_, row_b).transpose();
+      e.jacobians[0](i, i) = T(1);
+      e.jacobians[0].row(i).template tail<3>() = cross(point_a_, row_a).transpose();
+      e.jacobians[1](i, i) = T(-1);
+      e.jacobians[1].row(i).template tail<3>() = cross(row_b, point_b_).transpose();
     }
 
-    const Vector3<T> h = a.body_to_world * axis_a_;  // of the world, as all below
-    const Vector3<T> h_rate = cross(wa, h);
+    // The axis of a, h, and its rates as an observer on b sees them, but for angular accelerations.
+    const Vector3<T> h = a.body_to_world * axis_a_;  // in the world, as all without suffix
+    const Vector3<T> spin = wa - wb;
+    const Vector3<T> h_rate = cross(spin, h);
+    const Vector3<T> h_rate2 = cross(spin, cross(wa, h)) - cross(wb, h_rate);
+    const Vector3<T> h_b = b.body_to_world.transpose() * h;
     for (Eigen::Index i = 0; i < 2; ++i) {
-      const Vector3<T> u = b.body_to_world * perpendiculars_b_[static_cast<std::size_t>(i)];
-      const Vector3<T> u_rate = cross(wb, u);
-      const Vector3<T> normal = cross(h, u);
-      e.residual(3 + i) = h.dot(u);
-      e.residual_rate(3 + i) = normal.dot(wa - wb);
-      e.gamma(3 + i) =
-          -(cross(wa, h_rate).dot(u) + T(2) * h_rate.dot(u_rate) + h.dot(cross(wb, u_rate)));
-      const Vector3<T> zero = Vector3<T>::Zero();
-      e.jacobians[0].row(3 + i) << zero.transpose(),
-          (a.body_to_world.transpose() * normal).transpose();
-      e.jacobians[1].row(3 + i) << zero.transpose(),
-          -(b.body_to_world.transpose() * normal).transpose();
+      const Vector3<T>& u_b = perpendiculars_b_[static_cast<std::size_t>(i)];
+      const Vector3<T> u = b.body_to_world * u_b;
+      const Vector3<T> u_a = a.body_to_world.transpose() * u;
+      e.residual(3 + i) = dot(h, u);
+      e.residual_rate(3 + i) = dot(h_rate, u);
+      e.gamma(3 + i) = -dot(h_rate2, u);
+      // The same product of h and u, in the axes of either body.
+      e.jacobians[0].row(3 + i).template tail<3>() = cross(axis_a_, u_a).transpose();
+      e.jacobians[1].row(3 + i).template tail<3>() = cross(u_b, h_b).transpose();
     }
     return e;
   }

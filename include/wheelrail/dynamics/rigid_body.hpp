@@ -124,20 +124,29 @@ template <Real T>
 
 /// g of M a = g without constraints: the force in world axes [N], then the moment less
 /// omega x (I omega), in body axes [N m].
+/// @param body_to_world A: v_world = A v_body [-]. @param spin_body omega, in body axes [rad/s].
 template <Real T>
-[[nodiscard]] Vector6<T> generalized_force(const RigidBody<T>& body, const RigidBodyState<T>& state,
-                                           const Wrench<T>& wrench) {
+[[nodiscard]] Vector6<T> generalized_force(const RigidBody<T>& body,
+                                           const Matrix3<T>& body_to_world,
+                                           const Vector3<T>& spin_body, const Wrench<T>& wrench) {
   const Vector3<T>& inertia_body = body.moments_body();
-  const Vector3<T>& spin_body = state.angular_velocity_body;
-  const Vector3<T> moment_body =
-      rotation_matrix(state.orientation).transpose() * wrench.moment_world;
+  const Vector3<T> moment_body = body_to_world.transpose() * wrench.moment_world;
   const Vector3<T> gyroscopic_body(
       (inertia_body.y() - inertia_body.z()) * (spin_body.y() * spin_body.z()),
       (inertia_body.z() - inertia_body.x()) * (spin_body.z() * spin_body.x()),
       (inertia_body.x() - inertia_body.y()) * (spin_body.x() * spin_body.y()));
   Vector6<T> force;
-  force << wrench.force_world, moment_body + gyroscopic_body;
+  force.template head<3>() = wrench.force_world;
+  force.template tail<3>() = moment_body + gyroscopic_body;
   return force;
+}
+
+/// The same from the body's state.
+template <Real T>
+[[nodiscard]] Vector6<T> generalized_force(const RigidBody<T>& body, const RigidBodyState<T>& state,
+                                           const Wrench<T>& wrench) {
+  return generalized_force(body, rotation_matrix(state.orientation), state.angular_velocity_body,
+                           wrench);
 }
 
 /// Kinematics: the rate of the state with the accelerations @p acceleration, three of the centre of

@@ -28,18 +28,24 @@ using Vector13 = Eigen::Matrix<T, RigidBodyLayout::size, 1, Eigen::DontAlign>;
 /// `y.segment<13>(RigidBodyLayout::offset(i)) = pack(state)` lays body i into a system's column.
 template <Real T>
 [[nodiscard]] Vector13<T> pack(const RigidBodyState<T>& state) {
+  using Layout = RigidBodyLayout;
   Vector13<T> packed;
-  packed << state.position_world, state.orientation, state.velocity_world,
-      state.angular_velocity_body;
+  packed.template segment<3>(Layout::position_world) = state.position_world;
+  packed.template segment<4>(Layout::orientation) = state.orientation;
+  packed.template segment<3>(Layout::velocity_world) = state.velocity_world;
+  packed.template segment<3>(Layout::angular_velocity_body) = state.angular_velocity_body;
   return packed;
 }
 
 /// The same for the rates, in the same places.
 template <Real T>
 [[nodiscard]] Vector13<T> pack(const RigidBodyRate<T>& rate) {
+  using Layout = RigidBodyLayout;
   Vector13<T> packed;
-  packed << rate.velocity_world, rate.orientation_rate, rate.acceleration_world,
-      rate.angular_acceleration_body;
+  packed.template segment<3>(Layout::position_world) = rate.velocity_world;
+  packed.template segment<4>(Layout::orientation) = rate.orientation_rate;
+  packed.template segment<3>(Layout::velocity_world) = rate.acceleration_world;
+  packed.template segment<3>(Layout::angular_velocity_body) = rate.angular_acceleration_body;
   return packed;
 }
 

@@ -59,12 +59,13 @@ class JointGroupEquations {
  public:
   using Solver = SemidefiniteCholesky<T, 5 * static_cast<int>(MaximumJoints)>;
   using Vector = typename Solver::Vector;
+  using Rotation = Eigen::Matrix<T, 5, 3, Eigen::DontAlign>;
   using Jacobian = typename JointEquations<T>::Jacobian;
 
   // motions[int] -> BodyMotion, of the ground too.
   template <class Motions>
-  JointGroupEquations(std::span<const RevoluteJoint<T>> joints,
-                      const JointGroup<MaximumJoints>& group, const Motions& motions)
+  JointGroupEquations(std::span<const RevoluteJoint<T>> joints, std::span<const std::size_t> group,
+                      const Motions& motions)
       : size_(group.size()) {
     for (std::size_t i = 0; i < size_; ++i) {
       const RevoluteJoint<T>& joint = joints[group[i]];
@@ -80,20 +81,29 @@ class JointGroupEquations {
     const Eigen::Index rows = 5 * static_cast<Eigen::Index>(size_);
     typename Solver::Matrix matrix = Solver::Matrix::Zero(rows, rows);
     Vector rhs(rows);
+    const T twice_alpha = T(2) * alpha, beta_squared = beta * beta;
     for (std::size_t i = 0; i < size_; ++i) {
       const JointEquations<T>& e = equations_[i];
-      Vector5<T> sum = T(2) * alpha * e.residual_rate + beta * beta * e.residual - e.gamma;
+      Vector5<T> sum = twice_alpha * e.residual_rate + beta_squared * e.residual - e.gamma;
       for (std::size_t side = 0; side < 2; ++side) {
         const int body = bodies_[i][side];
         if (body == ground_body) continue;
-        const Jacobian scaled = e.jacobians[side] * inverse_masses[body].asDiagonal();
-        sum += scaled * forces[body];
-        // The lower triangle of Phi_q M^-1 Phi_q^T, by the pairs that share this body.
+        const Vector6<T>& inverse_mass = inverse_masses[body];
+        // Phi_q M^-1: of the translation its diagonal, then of the rotation.
+        const Vector3<T> pull =
+            translation(e.jacobians[side]).cwiseProduct(inverse_mass.template head<3>());
+        const Rotation turn =
+            rotation(e.jacobians[side]) * inverse_mass.template tail<3>().asDiagonal();
+        sum.template head<3>() += pull.cwiseProduct(forces[body].template head<3>());
+        sum += turn.lazyProduct(forces[body].template tail<3>());
+        // The lower triangle of Phi_q M^-1 Phi_q^T by the pairs that share this body.
         for (std::size_t j = 0; j <= i; ++j) {
           for (std::size_t other = 0; other < 2; ++other) {
             if (bodies_[j][other] != body) continue;
-            matrix.template block<5, 5>(row(i), row(j)) +=
-                scaled * equations_[j].jacobians[other].transpose();
+            const Jacobian& jacobian = equations_[j].jacobians[other];
+            auto block = matrix.template block<5, 5>(row(i), row(j));
+            block += turn.lazyProduct(rotation(jacobian).transpose());
+            block.diagonal().template head<3>() += pull.cwiseProduct(translation(jacobian));
           }
         }
       }
@@ -104,13 +114,24 @@ class JointGroupEquations {
 
   // -Phi_q^T lambda of joint i on its side (0 is a, 1 is b), as RigidBody's generalized_force.
   [[nodiscard]] Vector6<T> reaction(std::size_t i, std::size_t side, const Vector& lambda) const {
-    return -(equations_[i].jacobians[side].transpose() * lambda.template segment<5>(row(i)));
+    const Jacobian& jacobian = equations_[i].jacobians[side];
+    Vector6<T> reaction;
+    const Vector5<T> pull = -lambda.template segment<5>(row(i));
+    reaction.template head<3>() = translation(jacobian).cwiseProduct(pull.template head<3>());
+    reaction.template tail<3>() = rotation(jacobian).transpose().lazyProduct(pull);
+    return reaction;
   }
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const std::array<int, 2>& bodies(std::size_t i) const { return bodies_[i]; }
 
  private:
+  // What of the columns of a translation is not zero: the diagonal of the point's rows.
+  static auto translation(const Jacobian& jacobian) {
+    return jacobian.template topLeftCorner<3, 3>().diagonal();
+  }
+  static auto rotation(const Jacobian& jacobian) { return jacobian.template rightCols<3>(); }
+
   static Eigen::Index row(std::size_t i) { return 5 * static_cast<Eigen::Index>(i); }
 
   std::array<JointEquations<T>, MaximumJoints> equations_;
