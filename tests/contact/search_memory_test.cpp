@@ -29,22 +29,20 @@ TEST_CASE("SearchMemory: holds for one rail, one threshold and a wheel that move
   const Rail uic(uic50<double>()), other(rail_60e1<double>()), again(uic50<double>());
   SearchMemory<double> memory(wheel);
   const auto here = placed(0, 0.43, 0.01, 0);
-  CHECK_FALSE(memory.covers(uic, here, 0, true));
-  memory.restart(uic, here, 0, true);
+  CHECK_FALSE(memory.covers(uic, here, 0));
+  memory.restart(uic, here, 0);
   memory.parts().emplace_back();
-  CHECK(memory.covers(uic, here, 0, true));
-  CHECK(memory.covers(again, here, 0, true));
-  CHECK_FALSE(memory.covers(other, here, 0, true));
-  CHECK_FALSE(memory.covers(uic, here, 1e-6, true));
-  CHECK_FALSE(memory.covers(uic, here, 0, false));
+  CHECK(memory.covers(uic, here, 0));
+  CHECK(memory.covers(again, here, 0));
+  CHECK_FALSE(memory.covers(other, here, 0));
+  CHECK_FALSE(memory.covers(uic, here, 1e-6));
   auto along = here;
   along.position_rail.x() = 3;
-  CHECK(memory.covers(uic, along, 0, true));
-  CHECK_FALSE(memory.covers(uic, placed(1.01 * memory.motion().distance, 0.43, 0.01, 0), 0, true));
-  CHECK_FALSE(
-      memory.covers(uic, placed(0, 0.43 - 1.01 * memory.motion().distance, 0.01, 0), 0, true));
+  CHECK(memory.covers(uic, along, 0));
+  CHECK_FALSE(memory.covers(uic, placed(1.01 * memory.motion().distance, 0.43, 0.01, 0), 0));
+  CHECK_FALSE(memory.covers(uic, placed(0, 0.43 - 1.01 * memory.motion().distance, 0.01, 0), 0));
   CHECK(memory.parts().size() == 1);
-  memory.restart(uic, here, 0, true);
+  memory.restart(uic, here, 0);
   CHECK(memory.parts().empty());
 }
 
@@ -65,7 +63,7 @@ TEST_CASE("SearchMemory: no point of the wheel moves farther than the skin unnot
     const auto one = placed(0, 0.43, yaw, roll);
     const auto other = placed(between(-1e-4, 1e-4), 0.43 + between(-1e-4, 1e-4),
                               yaw + between(-1e-4, 1e-4), roll + between(-1e-4, 1e-4));
-    memory.restart(rail, one, 0, true);
+    memory.restart(rail, one, 0);
     // Circles of the wheel, seen along the rail: their points, turned about the axle so that both
     // circles begin at their lowest point.
     double moved = 0;
@@ -80,7 +78,7 @@ TEST_CASE("SearchMemory: no point of the wheel moves farther than the skin unnot
         moved = std::max(moved, std::hypot(step.y(), step.z()));
       }
     }
-    const bool covers = memory.covers(rail, other, 0, true);
+    const bool covers = memory.covers(rail, other, 0);
     covered += covers;
     noticed += !covers;
     if (covers) farthest = std::max(farthest, moved);

@@ -7,6 +7,7 @@
 ///
 /// What is proved (ContactResult::is_proved), and from what, stands in detail/penetration_bounds.hpp.
 
+#include <wheelrail/contact/detail/locus_strips.hpp>
 #include <wheelrail/contact/detail/near_blocks.hpp>
 #include <wheelrail/contact/detail/penetration_bounds.hpp>
 #include <wheelrail/contact/patch.hpp>
@@ -51,6 +52,7 @@ class StripWalk {
         can_prove_(wheel.strips().is_proved() && rail.is_proved_convex()),
         memory_(memory),
         margin_(T(64) * epsilon<T>() * wheel.nominal_radius()),
+        strips_(wheel, rail, placement),
         near_(wheel, rail, placement, T(options.penetration_threshold - margin_)),
         bounds_(rail, wheel.strips().greatest_radius(), placement.tan_yaw,
                 T(options.penetration_threshold - margin_)) {
@@ -65,48 +67,41 @@ class StripWalk {
       result_.evaluations += feet;
     } else {
       const T& threshold = options_.penetration_threshold;
-      if (!memory_->covers(rail_, placement_, threshold, options_.zone_ends)) {
-        memory_->restart(rail_, placement_, threshold, options_.zone_ends);
+      if (!memory_->covers(rail_, placement_, threshold)) {
+        memory_->restart(rail_, placement_, threshold);
         remember_parts();
       }
+      memory_->begin_zone_ends();
       for (auto& part : memory_->parts()) visit_remembered(part);
     }
     leave_zone();
+    result_.evaluations += strips_.count();
     return result_;
   }
 
  private:
   using Strip = LocusStrip<T>;
 
-  [[nodiscard]] static RailTangent<T> tangent_at(const ClosestPoint<T>& foot,
-                                                 const LocusPoint<T>& locus) {
-    return {foot.normal_rail, foot.penetration + foot.normal_rail.x() * locus.lateral +
-                                  foot.normal_rail.y() * locus.up};
-  }
-
   // Strips at both ends of a block, then what lies between them.
   void visit_block(int index) {
     const StripNode<T>& node = wheel_.strips().nodes()[static_cast<std::size_t>(index)];
-    const Strip left = edge(node.first);
+    const Strip left = strips_.edge(node.first);
     if (lies_above(left, node)) return;
-    const Strip right = edge(node.last);
+    const Strip right = strips_.edge(node.last);
     if (lies_above(right, node)) return;
     judge_node(index, left, right);
-  }
-
-  // A strip of the wheel that the node before may have had too.
-  [[nodiscard]] Strip edge(int index) {
-    if (index != edge_index_) {
-      edge_ = strip_of_wheel(index);
-      edge_index_ = index;
-    }
-    return edge_;
   }
 
   [[nodiscard]] bool lies_above(const Strip& strip, const StripNode<T>& node,
                                 const T& clearance = T(0)) const {
     return strip.exists && near_.is_above(strip.tangent, node, clearance);
   }
+
+  // A strip and its index in the wheel, -1 where it is none of the wheel's.
+  struct Indexed {
+    Strip strip;
+    int index;
+  };
 
   // What is near the rail, and what will be known of it during the memory's motion.
   void remember_parts() {
@@ -116,9 +111,10 @@ class StripWalk {
                                       T(options_.penetration_threshold - margin_));
     const int feet = near_.for_each(motion.distance, [&](int block) {
       const StripNode<T>& node = wheel_.strips().nodes()[static_cast<std::size_t>(block)];
-      const Strip left = edge(node.first);
-      remember_node(block, left, edge(node.last), bounds);
+      const Strip left = strips_.edge(node.first);
+      remember_node(block, left, strips_.edge(node.last), bounds);
     });
+    leave_outside();
     result_.evaluations += feet;
   }
 
@@ -128,38 +124,95 @@ class StripWalk {
     const auto& nodes = wheel_.strips().nodes();
     const StripNode<T>& node = nodes[static_cast<std::size_t>(index)];
     if (lies_above(left, node, motion.distance) || lies_above(right, node, motion.distance)) return;
-    const MovingStrip<T> moving_left = bounds.moving(left, node.shape, motion);
-    const MovingStrip<T> moving_right = bounds.moving(right, node.shape, motion);
-    const Verdict verdict = bounds.judge(moving_left, moving_right, node.shape).verdict;
-    if (verdict == Verdict::excluded) return;
-    if (verdict == Verdict::open && node.skip != index + 1) {
+    const Indexed first{left, node.first}, last{right, node.last};
+    if (node.skip == index + 1) {
+      remember_between(first, last, node.shape, bounds, 0);
+    } else if (!remember_if_known(first, last, node.shape, bounds)) {
       const StripNode<T>& child = nodes[static_cast<std::size_t>(index + 1)];
-      const Strip middle = strip_of_wheel(child.last);
+      const Strip middle = strips_.of_wheel(child.last);
       remember_node(index + 1, left, middle, bounds);
       remember_node(child.skip, middle, right, bounds);
-      return;
     }
-    RememberedPart<T> part{index, verdict == Verdict::simple, left, right, T(0)};
-    part.left.is_exact = !part.is_simple || !keeps_signs(moving_left, node.first);
-    part.right.is_exact = !part.is_simple || !keeps_signs(moving_right, node.last);
-    part.extremum = extremum_guess(left, right);
-    memory_->parts().push_back(part);
   }
 
-  // Whether a strip of the wheel need not be looked at during the motion: it deepens to one side, it
-  // is not the deepest itself, as one at a joint may be, and where zones' ends are wanted, it is on
-  // one side of them.
-  [[nodiscard]] bool keeps_signs(const MovingStrip<T>& strip, int index) const {
-    const T& threshold = options_.penetration_threshold;
-    const bool stays_outside = strip.greatest_penetration() < threshold - margin_;
-    const bool stays_inside = threshold + margin_ < strip.least_penetration();
-    const bool keeps_slope = T(0) < strip.least_slope() || strip.greatest_slope() < T(0);
-    return strip.exists && keeps_slope && (stays_outside || !is_joint(index)) &&
-           (stays_outside || stays_inside || !options_.zone_ends);
+  // Between two strips of a leaf: divided until all is known, or enough.
+  void remember_between(const Indexed& left, const Indexed& right, const ShapeBounds<T>& shape,
+                        const PenetrationBounds<R>& bounds, int depth) {
+    if (remember_if_known(left, right, shape, bounds)) return;
+    const int piece = left.strip.piece;
+    const T lower = left.strip.wheel_lateral, upper = right.strip.wheel_lateral;
+    if (depth == 1 || !can_prove_ || !memory_->has_room()) {
+      remember({left.strip, right.strip, left.index, right.index, false});
+      return;
+    }
+    const Indexed middle{strips_.at(piece, T(lower + (upper - lower) / T(2))), -1};
+    const T& at = middle.strip.wheel_lateral;
+    remember_between(left, middle, shape_bounds(wheel_.profile(), piece, lower, at), bounds,
+                     depth + 1);
+    remember_between(middle, right, shape_bounds(wheel_.profile(), piece, at, upper), bounds,
+                     depth + 1);
+  }
+
+  // Returns whether the verdict on what lies between two strips will hold.
+  [[nodiscard]] bool remember_if_known(const Indexed& left, const Indexed& right,
+                                       const ShapeBounds<T>& shape,
+                                       const PenetrationBounds<R>& bounds) {
+    const auto& motion = memory_->motion();
+    const MovingStrip<T> moving_left = bounds.moving(left.strip, shape, motion);
+    const MovingStrip<T> moving_right = bounds.moving(right.strip, shape, motion);
+    const Verdict verdict = bounds.judge(moving_left, moving_right, shape).verdict;
+    // Without a maximum between two ends that stay outside there is nothing.
+    const bool may_rise = T(0) < moving_left.greatest_slope() && moving_right.least_slope() < T(0);
+    if (verdict == Verdict::simple &&
+        (may_rise || !stays_outside(moving_left) || !stays_outside(moving_right))) {
+      remember({remembered(left, moving_left), remembered(right, moving_right), left.index,
+                right.index, true});
+    }
+    return verdict != Verdict::open;
+  }
+
+  void remember(RememberedPart<T> part) {
+    using Joins = typename RememberedPart<T>::Joins;
+    auto& parts = memory_->parts();
+    if (!parts.empty() && parts.back().right.wheel_lateral == part.left.wheel_lateral) {
+      const bool same_piece = parts.back().right.piece == part.left.piece;
+      part.joins = same_piece ? Joins::same : Joins::joint;
+    } else {
+      leave_outside();
+      settle_outside(part.left);
+    }
+    part.extremum = extremum_guess(part.left, part.right);
+    parts.push_back(part);
+  }
+
+  // What lies beside the remembered parts stays outside, and so do their ends there.
+  void leave_outside() {
+    if (!memory_->parts().empty()) settle_outside(memory_->parts().back().right);
+  }
+  static void settle_outside(Strip& strip) {
+    if (!strip.is_exact) strip.side = Strip::Side::outside;
+  }
+
+  // What holds of a strip during the motion. It need not be looked at then if it deepens to one side,
+  // unless it may be the deepest itself, at a joint.
+  [[nodiscard]] Strip remembered(const Indexed& now, const MovingStrip<T>& moving) const {
+    Strip strip = now.strip;
+    const bool keeps_slope = T(0) < moving.least_slope() || moving.greatest_slope() < T(0);
+    strip.is_exact =
+        !(moving.exists && keeps_slope && (stays_outside(moving) || !is_joint(now.index)));
+    if (strip.is_exact) return strip;
+    const T inside = options_.penetration_threshold + margin_;
+    if (stays_outside(moving)) strip.side = Strip::Side::outside;
+    if (inside < moving.least_penetration()) strip.side = Strip::Side::inside;
+    return strip;
+  }
+  [[nodiscard]] bool stays_outside(const MovingStrip<T>& strip) const {
+    return strip.greatest_penetration() < options_.penetration_threshold - margin_;
   }
 
   // Whether a strip is the first or the last one of its piece.
   [[nodiscard]] bool is_joint(int index) const {
+    if (index < 0) return false;
     const auto& strips = wheel_.strips().strips();
     const auto i = static_cast<std::size_t>(index);
     return i == 0 || i + 1 == strips.size() || strips[i - 1].piece != strips[i].piece ||
@@ -167,17 +220,32 @@ class StripWalk {
   }
 
   void visit_remembered(RememberedPart<T>& part) {
-    const StripNode<T>& node = wheel_.strips().nodes()[static_cast<std::size_t>(part.node)];
-    const Strip left = part.left.is_exact ? edge(node.first) : part.left;
-    const Strip right = part.right.is_exact ? edge(node.last) : part.right;
-    if (!part.is_simple) {
-      visit_node(part.node, left, right);
-      return;
+    using Joins = typename RememberedPart<T>::Joins;
+    const Strip left = now(part.left, part.left_index);
+    const Strip right = now(part.right, part.right_index);
+    if (part.joins == Joins::apart) leave_zone();
+    const bool is_visited =
+        part.joins == Joins::same && (!left.is_exact || (last_.is_exact && is_same(last_, left)));
+    if (!is_visited) visit(left);
+    if (part.is_simple) {
+      visit_extremum(left, right, part.extremum);
+    } else {
+      visit_part(left, right, 0);
     }
-    enter(node.first, left);
-    reached_ = node.last;
-    visit_extremum(left, right, part.extremum);
     visit(right);
+  }
+
+  [[nodiscard]] static bool is_same(const Strip& one, const Strip& other) {
+    return one.piece == other.piece && one.wheel_lateral == other.wheel_lateral;
+  }
+
+  // A remembered strip, at the placement as it is where that matters.
+  [[nodiscard]] Strip now(const Strip& remembered, int index) {
+    if (!remembered.is_exact) return remembered;
+    if (0 <= index) return strips_.edge(index);
+    return last_.is_exact && is_same(last_, remembered)
+               ? last_
+               : strips_.at(remembered.piece, remembered.wheel_lateral);
   }
 
   // A node inside a block with the strips at its ends.
@@ -197,7 +265,7 @@ class StripWalk {
     const bool is_leaf = node.skip == index + 1;
     if (judgement.verdict == Verdict::open && !is_leaf) {
       const StripNode<T>& child = nodes[static_cast<std::size_t>(index + 1)];
-      const Strip middle = strip_of_wheel(child.last);
+      const Strip middle = strips_.of_wheel(child.last);
       visit_node(index + 1, left, middle);
       visit_node(child.skip, middle, right);
       return;
@@ -219,9 +287,9 @@ class StripWalk {
     const int maximum_depth = judgement.is_bounded ? 16 : 6;
     const bool is_small = judgement.variation < options_.depth_tolerance;
     if (!is_small && can_prove_ && depth < maximum_depth &&
-        result_.evaluations < options_.maximum_evaluations) {
+        strips_.count() < options_.maximum_evaluations) {
       const T half_width = (right.wheel_lateral - left.wheel_lateral) / T(2);
-      const Strip middle = strip(left.piece, T(left.wheel_lateral + half_width));
+      const Strip middle = strips_.at(left.piece, T(left.wheel_lateral + half_width));
       visit_part(left, middle, depth + 1);
       visit(middle);
       visit_part(middle, right, depth + 1);
@@ -242,17 +310,9 @@ class StripWalk {
     if (judgement.verdict == Verdict::open) visit_open(left, right, judgement, depth);
   }
 
-  [[nodiscard]] Strip strip_of_wheel(int index) {
-    const auto& at = wheel_.strips().strips()[static_cast<std::size_t>(index)];
-    return strip(at.piece, at.lateral, at.point);
-  }
-
   // Begins at the strip `first` of the wheel unless the walk is there already.
   void enter(int first, const Strip& strip_there) {
-    if (first == reached_) {
-      if (strip_there.is_exact && !last_.is_exact) visit(strip_there);
-      return;
-    }
+    if (first == reached_) return;
     // What was left out in between does not penetrate; two strips at a joint are neighbours.
     const bool neighbours =
         reached_ >= 0 && first == reached_ + 1 && last_.wheel_lateral == strip_there.wheel_lateral;
@@ -260,49 +320,13 @@ class StripWalk {
     visit(strip_there);
   }
 
-  [[nodiscard]] Strip strip(int piece, const T& u) {
-    return strip(piece, u, wheel_.profile().evaluate(piece, u));
-  }
-
-  [[nodiscard]] Strip strip(int piece, const T& u, const ProfilePoint<T>& point) {
-    ++result_.evaluations;
-    Strip at;
-    at.wheel_lateral = u;
-    at.piece = piece;
-    const LocusPoint<T> locus = locus_point(wheel_, placement_, u, point);
-    if (!locus.exists) return at;
-    const ClosestPoint<T> foot = rail_foot(rail_.profile(), locus.lateral, locus.up);
-    at.rail_lateral = foot.lateral;
-    at.tangent = tangent_at(foot, locus);
-    at.penetration = foot.penetration;
-    // The foot moves along the surface, so only the locus' own motion across it counts.
-    at.slope = -(foot.normal_rail.x() * locus.lateral_rate + foot.normal_rail.y() * locus.up_rate);
-    at.slope_rate = slope_rate(point, locus, foot);
-    at.exists = is_finite(at.penetration) && is_finite(at.slope) &&
-                !(foot.lateral < rail_.profile().lower()) &&
-                !(rail_.profile().upper() < foot.lateral);
-    return at;
-  }
-
-  // d slope / d wheel_lateral: (57), (59) twice differentiated. What is left out, terms with F''' and
-  // of yaw to the fourth, vanishes where the slope does, but for yaw to the fourth.
-  [[nodiscard]] T slope_rate(const ProfilePoint<T>& point, const LocusPoint<T>& locus,
-                             const ClosestPoint<T>& foot) const {
-    const Vector2<T>& n = foot.normal_rail;
-    const T& bend = point.second_derivative;
-    const T steepness = point.slope * point.slope;
-    const T squared_tan_yaw = placement_.tan_yaw * placement_.tan_yaw;
-    const T y_bend = T(-3) * squared_tan_yaw * placement_.cos_yaw * point.slope * bend;
-    const T z_bend = -bend * locus.angle.cosine +
-                     squared_tan_yaw * bend * (T(2) * steepness + wheel_.radius(point) * bend);
-    const T along = n.y() * locus.lateral_rate - n.x() * locus.up_rate;
-    return -(n.x() * placement_.cos_roll + n.y() * placement_.sin_roll) * y_bend -
-           (n.y() * placement_.cos_roll - n.x() * placement_.sin_roll) * z_bend -
-           foot.curvature / (T(1) - foot.curvature * foot.penetration) * along * along;
-  }
-
+  // Of a strip that is exact, or whose side is known.
   [[nodiscard]] bool penetrates(const Strip& at) const {
+    if (!at.is_exact) return at.side == Strip::Side::inside;
     return at.exists && options_.penetration_threshold < at.penetration;
+  }
+  [[nodiscard]] static bool has_side(const Strip& at) {
+    return at.is_exact || at.side != Strip::Side::unknown;
   }
 
   // Where the foot passes a joint of the rail between the last strip and the next, the
@@ -316,12 +340,12 @@ class StripWalk {
     while (piece != end) {
       const T joint = rail.joint(piece < end ? piece + 1 : piece);
       const auto root = bracketed_root<T>(
-          [&](const T& u) { return T(strip(next.piece, u).rail_lateral - joint); },
+          [&](const T& u) { return T(strips_.at(next.piece, u).rail_lateral - joint); },
           last_.wheel_lateral, next.wheel_lateral, T(last_.rail_lateral - joint),
           T(next.rail_lateral - joint),
           {.step_tolerance = (next.wheel_lateral - last_.wheel_lateral) / T(1000)});
       piece += piece < end ? 1 : -1;
-      const Strip at = strip(next.piece, root.position);
+      const Strip at = strips_.at(next.piece, root.position);
       if (root.status != SolveStatus::converged || !at.exists) {
         result_.status = SearchStatus::not_converged;
         continue;
@@ -345,17 +369,6 @@ class StripWalk {
     return between(left, right, cubic.near_extremum(secant), secant);
   }
 
-  // Whether a minimum between two strips, the left one visited, may part two zones.
-  [[nodiscard]] bool separates_zones(const Strip& left, const Strip& right) const {
-    const bool from_zone = has_side(left) ? penetrates(left) : zone_is_open_;
-    return from_zone && (!has_side(right) || penetrates(right));
-  }
-
-  // Whether it is known of a strip if it penetrates.
-  [[nodiscard]] bool has_side(const Strip& strip) const {
-    return strip.is_exact || options_.zone_ends;
-  }
-
   // Solves for the extremum of the penetration between two strips of one piece, if there is one
   // that can matter: a maximum that may reach the threshold, or a minimum between two that do.
   // `position` is where it is looked for first, and where it was found.
@@ -364,12 +377,13 @@ class StripWalk {
     const bool is_maximum = T(0) < left.slope && right.slope < T(0);
     const bool is_minimum = left.slope < T(0) && T(0) < right.slope;
     if (!is_maximum && !is_minimum) return;
-    if (is_minimum && !separates_zones(left, right)) return;
+    // The left one was visited.
+    if (is_minimum && (!zone_is_open_ || (has_side(right) && !penetrates(right)))) return;
     bool lost = false;
     Strip at;
     const auto root = bracketed_newton<T>(
         [&](const T& u) {
-          at = strip(left.piece, u);
+          at = strips_.at(left.piece, u);
           lost = lost || !at.exists;
           return ValueAndSlope<T>{at.slope, at.slope_rate};
         },
@@ -390,10 +404,7 @@ class StripWalk {
 
   // The next strip in the order of wheel_lateral: opens, deepens or closes a zone.
   void visit(const Strip& next) {
-    if (!has_side(next)) {
-      last_ = next;
-      return;
-    }
+    if (!has_side(next)) return;
     const bool inside = penetrates(next);
     if (inside && !zone_is_open_) {
       zone_is_open_ = true;
@@ -414,7 +425,7 @@ class StripWalk {
   // Ends the walk over neighbouring strips; a zone that is open there ends with the profile.
   void leave_zone() {
     if (zone_is_open_) {
-      zone_is_cut_ = last_.is_exact;  // otherwise it is known that what follows does not penetrate
+      zone_is_cut_ = true;
       close_zone(last_.wheel_lateral);
     }
     last_ = Strip();
@@ -439,20 +450,25 @@ class StripWalk {
   // Where the penetration passes the threshold between two neighbouring strips.
   [[nodiscard]] T boundary(const Strip& left, const Strip& right) {
     if (!options_.zone_ends) return T(0) / T(0);
-    if (left.piece != right.piece) return right.wheel_lateral;
+    if (left.wheel_lateral == right.wheel_lateral) return left.wheel_lateral;
     const T& threshold = options_.penetration_threshold;
     const T share = boundary_share(left, right);
+    T start =
+        between(left, right, PenetrationCubic<T>(left, right, threshold).near_root(share), share);
+    if (memory_ != nullptr)
+      memory_->improve_zone_end(left.wheel_lateral, right.wheel_lateral, start);
     bool lost = false;
+    const T left_side = penetrates(left) ? T(1) : T(-1);  // all that matters of the values there
     const auto root = bracketed_newton<T>(
         [&](const T& u) {
-          const Strip at = strip(left.piece, u);
+          const int piece = left.piece == right.piece ? left.piece : piece_of(wheel_.profile(), u);
+          const Strip at = strips_.at(piece, u);
           lost = lost || !at.exists;
           return ValueAndSlope<T>{T(at.penetration - threshold), at.slope};
         },
-        left.wheel_lateral, right.wheel_lateral, T(left.penetration - threshold),
-        T(right.penetration - threshold),
-        between(left, right, PenetrationCubic<T>(left, right, threshold).near_root(share), share),
+        left.wheel_lateral, right.wheel_lateral, left_side, T(-left_side), start,
         {.residual_tolerance = margin_ / T(16), .grid = grid_});
+    if (memory_ != nullptr) memory_->add_zone_end(root.position);
     if (root.status != SolveStatus::converged || lost) {
       result_.status = SearchStatus::not_converged;
     }
@@ -481,9 +497,8 @@ class StripWalk {
   const SearchOptions<T>& options_;
   bool can_prove_;           // given that nothing is too steep or divided too often
   SearchMemory<T>* memory_;  // null: nothing is remembered
-  Strip edge_;               // at the last block's end,
-  int edge_index_ = -1;      // which is this strip of the wheel
   T margin_;                 // rounding of the bound and of the penetration [m]
+  LocusStrips<P, R> strips_;
   NearBlocks<P, R> near_;
   PenetrationBounds<R> bounds_;
   T grid_{};  // a last Newton step this long leaves an error of rounding [m]

@@ -14,6 +14,7 @@
 
 #include <vector>
 #include <wheelrail/contact/detail/penetration_bounds.hpp>
+#include <wheelrail/core/fixed_list.hpp>
 
 namespace wheelrail {
 
@@ -22,10 +23,12 @@ namespace detail {
 // A part of the wheel near the rail, and what is known of it while the memory covers the placement.
 template <Real T>
 struct RememberedPart {
-  int node = 0;            // of the strip tree
-  bool is_simple = false;  // the penetration has one extremum at most; otherwise nothing is known
   LocusStrip<T> left, right;  // at its ends; not exact: their signs hold, do not look at them again
-  T extremum{};               // where it was last
+  int left_index = -1, right_index = -1;  // among the wheel's strips, if they are
+  bool is_simple = false;  // the penetration has one extremum at most; otherwise nothing is known
+  T extremum{};            // where it was last
+  // What lies to the left: nothing near the rail, another piece, or a part with the same strip.
+  enum class Joins { apart, joint, same } joins = Joins::apart;
 };
 
 }  // namespace detail
@@ -45,22 +48,22 @@ class SearchMemory {
                                   detail::magnitude(wheel.profile().upper())) +
                           wheel.strips().greatest_radius()} {
     detail::require_positive("search memory: skin", skin, "[m]");
-    parts_.reserve(wheel.strips().strips().size());
+    parts_.reserve(2 * wheel.strips().strips().size());
   }
 
   /// The motion that is allowed for.
   [[nodiscard]] const detail::WheelMotion<T>& motion() const { return motion_; }
+  /// Whether the wheel may be divided into more parts than it has strips.
+  [[nodiscard]] bool has_room() const { return 2 * parts_.size() < parts_.capacity(); }
   /// Those near the rail, from the flange to the field side.
   [[nodiscard]] std::vector<detail::RememberedPart<T>>& parts() { return parts_; }
 
-  /// Whether what is remembered holds at `placement`, for zones deeper than `threshold` [m], and with
-  /// their ends if these are wanted.
+  /// Whether what is remembered holds at `placement`, for zones deeper than `threshold` [m].
   template <Profile R>
   [[nodiscard]] bool covers(const Rail<R>& rail, const WheelPlacement<T>& placement,
-                            const T& threshold, bool zone_ends) const {
+                            const T& threshold) const {
     using std::sqrt;
-    if (!is_valid_ || !(checksum_ == rail.checksum()) || !(threshold_ == threshold) ||
-        zone_ends_ != zone_ends) {
+    if (!is_valid_ || !(checksum_ == rail.checksum()) || !(threshold_ == threshold)) {
       return false;
     }
     const T lateral = placement.position_rail.y() - lateral_;
@@ -72,19 +75,32 @@ class SearchMemory {
 
   /// Forgets all: what is known at `placement` will be put here.
   template <Profile R>
-  void restart(const Rail<R>& rail, const WheelPlacement<T>& placement, const T& threshold,
-               bool zone_ends) {
+  void restart(const Rail<R>& rail, const WheelPlacement<T>& placement, const T& threshold) {
     parts_.clear();
     checksum_ = rail.checksum();
     threshold_ = threshold;
-    zone_ends_ = zone_ends;
     lateral_ = placement.position_rail.y();
     up_ = placement.position_rail.z();
     axle_rail_ = axle_rail(placement);
     is_valid_ = true;
   }
 
+  /// Before a search: the zones' ends that were found are those of the search before now.
+  void begin_zone_ends() {
+    last_zone_ends_ = zone_ends_;
+    zone_ends_.clear();
+  }
+  void add_zone_end(const T& lateral) { static_cast<void>(zone_ends_.push_back(lateral)); }
+  /// A zone's end of the search before between two laterals, if there is one, in `start`.
+  void improve_zone_end(const T& lower, const T& upper, T& start) const {
+    for (const T& lateral : last_zone_ends_) {
+      if (lower < lateral && lateral < upper) start = lateral;
+    }
+  }
+
  private:
+  using ZoneEnds = FixedList<T, 16>;
+
   [[nodiscard]] static Vector3<T> axle_rail(const WheelPlacement<T>& placement) {
     return Vector3<T>(-placement.sin_yaw, placement.cos_yaw * placement.cos_roll,
                       placement.cos_yaw * placement.sin_roll);
@@ -92,8 +108,8 @@ class SearchMemory {
 
   detail::WheelMotion<T> motion_;
   std::vector<detail::RememberedPart<T>> parts_;
+  ZoneEnds zone_ends_, last_zone_ends_;
   bool is_valid_ = false;
-  bool zone_ends_ = true;
   T checksum_{};
   T threshold_{};
   T lateral_{}, up_{};

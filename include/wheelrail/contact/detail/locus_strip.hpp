@@ -24,7 +24,9 @@ struct LocusStrip {
   RailTangent<T> tangent;  // of the rail, at the foot
   int piece = -1;          // of the wheel's profile
   bool exists = false;     // false where the strip has no locus point, or the rail no foot for it
-  bool is_exact = true;    // false: the wheel has moved since, but no sign has changed
+  bool is_exact = true;    // false: the wheel has moved since, but the slope kept its sign
+  // Of one that is not exact: whether it penetrates.
+  enum class Side { unknown, outside, inside } side = Side::unknown;
 
   // A strip that does not move has ranges of one value.
   [[nodiscard]] const T& least_penetration() const { return penetration; }
