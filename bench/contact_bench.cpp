@@ -1,138 +1,228 @@
-// The contact searches on the same poses: a wheelset's left wheel over the gauge clearance, set down
-// with some tens of micrometres of penetration. The results are compared before anything is timed.
+// The contact searches on the same poses, checked against each other before anything is timed.
 //
-//   cmake -B build/bench -DWHEELRAIL_BUILD_BENCHMARKS=ON -DWHEELRAIL_BUILD_TESTS=OFF
-//   cmake --build build/bench --target contact_bench && build/bench/bench/contact_bench
+//   cmake -B build/bench -DCMAKE_BUILD_TYPE=Release -DWHEELRAIL_BUILD_BENCHMARKS=ON
+//   cmake --build build/bench --target contact_bench
+//   build/bench/bench/contact_bench --ratios   # the README's table
+//   build/bench/bench/contact_bench            # all benchmarks
 
 #include <benchmark/benchmark.h>
 
-#include <cmath>
 #include <cstdio>
-#include <cstdlib>
-#include <random>
-#include <vector>
-#include <wheelrail/wheelrail.hpp>
+#include <cstring>
+#include <map>
+#include <string>
+
+#include "contact_poses.hpp"
+#include "ratio_table.hpp"
+#include "support/allocation_counter.hpp"
 
 namespace {
 
 using namespace wheelrail;
-using RealWheel = PiecewiseProfile<double>;
-using ConvexWheel = ConvexModification<RealWheel>;
+using namespace wheelrail_bench;
 
-struct Setting {
-  Wheelset<RealWheel> real{s1002<double>(), 0.43, 1.5};
-  Wheelset<ConvexWheel> convex{ConvexWheel(s1002<double>()), 0.43, 1.5};
-  TangentTrack<RailHead<double>> track{uic50<double>()};
-  MinimumDistanceSearch<double> minimum_distance{convex_parts(convex.wheel(Side::left).profile()),
-                                                 {}};
-  std::vector<WheelPlacement<double>> poses;
-
-  Setting() {
-    std::mt19937 random(2020);
-    const auto between = [&random](double lower, double upper) {
-      return lower + (upper - lower) * (static_cast<double>(random()) / 4294967296.0);
-    };
-    while (poses.size() < 256) {
-      const double shift = between(-0.006, 0.006), yaw = between(-0.01, 0.01);
-      const auto down = touching_position(real, track, shift, yaw, {.gap = -between(5e-6, 80e-6)});
-      if (down.status != SolveStatus::converged) continue;
-      poses.push_back(place_wheel(real, track, Side::left, down.position));
-    }
-    check();
-  }
-
-  // Both methods must agree on the convex wheel, and each pose must touch the real one.
-  void check() const {
-    const auto& rail = track.rail(Side::left);
-    for (const auto& pose : poses) {
-      const auto by_strips = find_contact(convex.wheel(Side::left), rail, pose);
-      const auto by_distance = minimum_distance(convex.wheel(Side::left), rail, pose);
-      const auto on_real = find_contact(real.wheel(Side::left), rail, pose);
-      bool good = by_strips.patches.size() == by_distance.patches.size() &&
-                  by_strips.status == SearchStatus::complete &&
-                  by_distance.status == SearchStatus::complete && !on_real.patches.empty();
-      for (std::size_t k = 0; good && k < by_strips.patches.size(); ++k) {
-        good =
-            std::abs(by_strips.patches[k].penetration - by_distance.patches[k].penetration) < 1e-12;
-      }
-      if (good) continue;
-      std::fprintf(stderr, "contact_bench: the methods disagree, nothing is timed\n");
-      std::exit(1);
-    }
-  }
-};
-
-const Setting& setting() {
-  static const Setting value;
-  return value;
-}
-
-template <class Search>
-void run(benchmark::State& state, const Search& search) {
-  long evaluations = 0, failures = 0, searches = 0;
+// Runs search(pose) over poses; counters per search.
+template <class Poses, class Search>
+void run(benchmark::State& state, const Poses& poses, Search&& search) {
+  long evaluations = 0, failures = 0, searches = 0, patches = 0;
+  const long allocations = wheelrail_test::allocations_so_far();
   for (auto _ : state) {
-    for (const auto& pose : setting().poses) {
+    for (const auto& pose : poses) {
       const auto found = search(pose);
       benchmark::DoNotOptimize(found.patches.begin());
       evaluations += found.evaluations;
+      patches += static_cast<long>(found.patches.size());
       failures += found.status != SearchStatus::complete;
     }
-    searches += static_cast<long>(setting().poses.size());
+    searches += static_cast<long>(poses.size());
   }
+  const auto per_search = [&](long count) {
+    return static_cast<double>(count) / static_cast<double>(searches);
+  };
   state.SetItemsProcessed(searches);
-  state.counters["evaluations"] = static_cast<double>(evaluations) / static_cast<double>(searches);
+  state.counters["evaluations"] = per_search(evaluations);
+  state.counters["patches"] = per_search(patches);
   state.counters["failures"] = static_cast<double>(failures);
+  state.counters["allocations"] =
+      static_cast<double>(wheelrail_test::allocations_so_far() - allocations);
 }
 
-void minimum_distance_convex(benchmark::State& state) {
-  const Setting& s = setting();
-  run(state, [&](const auto& pose) {
-    return s.minimum_distance(s.convex.wheel(Side::left), s.track.rail(Side::left), pose);
+// Also the median and the 99th percentile over single poses, each the least of many tries.
+template <class Poses, class Search>
+void run_percentiles(benchmark::State& state, const Poses& poses, Search&& search) {
+  run(state, poses, search);
+  std::vector<double> times;
+  for (const auto& pose : poses)
+    times.push_back(
+        least_nanoseconds([&] { benchmark::DoNotOptimize(search(pose).patches.begin()); }));
+  std::sort(times.begin(), times.end());
+  state.counters["p50_ns"] = times[times.size() / 2];
+  state.counters["p99_ns"] = times[times.size() * 99 / 100];
+}
+
+template <class Body>
+void add(const std::string& name, Body body) {
+  benchmark::RegisterBenchmark(name.c_str(), body);
+}
+
+void add_searches(const Setting& s) {
+  const auto& rail = s.rail();
+  add("cold/minimum_distance/convex", [&](auto& state) {
+    run_percentiles(state, s.poses, [&](const auto& pose) {
+      return find_contact_by_minimum_distance(s.convex, rail, pose, s.parts);
+    });
   });
-}
-
-void strips_convex(benchmark::State& state) {
-  const Setting& s = setting();
-  run(state, [&](const auto& pose) {
-    return find_contact(s.convex.wheel(Side::left), s.track.rail(Side::left), pose);
+  add("cold/strips/convex", [&](auto& state) {
+    run_percentiles(state, s.poses,
+                    [&](const auto& pose) { return find_contact(s.convex, rail, pose); });
   });
-}
-
-void strips_real(benchmark::State& state) {
-  const Setting& s = setting();
-  run(state, [&](const auto& pose) {
-    return find_contact(s.real.wheel(Side::left), s.track.rail(Side::left), pose);
+  add("cold/strips/s1002", [&](auto& state) {
+    run_percentiles(state, s.poses,
+                    [&](const auto& pose) { return find_contact(s.real, rail, pose); });
   });
-}
-
-void contact_force(benchmark::State& state) {
-  const Setting& s = setting();
-  const ContactForceModel<double> model;
-  std::vector<ContactKinematics<double>> contacts;
-  for (const auto& pose : s.poses) {
-    const auto found = find_contact(s.real.wheel(Side::left), s.track.rail(Side::left), pose);
-    const auto& patch = found.patches[0];
-    contacts.push_back({.penetration = patch.penetration,
-                        .curvatures = hertz_curvatures(patch.wheel_longitudinal_curvature, 0.0,
-                                                       patch.wheel_lateral_curvature,
-                                                       patch.rail_lateral_curvature),
-                        .longitudinal_velocity = 0.01,
-                        .lateral_velocity = 0.005,
-                        .spin_velocity = 0.2,
-                        .forward_speed = 10,
-                        .speed = 10});
+  add("cold/strips/s1002_without_zone_ends", [&](auto& state) {
+    run_percentiles(state, s.poses, [&](const auto& pose) {
+      return find_contact(s.real, rail, pose, {.zone_ends = false});
+    });
+  });
+  add("cold/strips/spline_of_s1002", [&](auto& state) {
+    run_percentiles(state, s.poses,
+                    [&](const auto& pose) { return find_contact(s.spline, rail, pose); });
+  });
+  add("cold/strips/s1002_float", [&](auto& state) {
+    run_percentiles(state, s.float_poses, [&](const auto& pose) {
+      return find_contact(s.float_wheel, s.float_rail, pose);
+    });
+  });
+  add("path/minimum_distance/convex_cold", [&](auto& state) {
+    run(state, s.path, [&](const auto& pose) {
+      return find_contact_by_minimum_distance(s.convex, rail, pose, s.parts);
+    });
+  });
+  add("path/minimum_distance/convex_warm", [&](auto& state) {
+    MinimumDistanceMemory<double> memory;
+    run(state, s.path, [&](const auto& pose) {
+      return find_contact_by_minimum_distance(s.convex, rail, pose, s.parts, memory);
+    });
+  });
+  add("path/strips/s1002_cold", [&](auto& state) {
+    run(state, s.path, [&](const auto& pose) { return find_contact(s.real, rail, pose); });
+  });
+  add("path/strips/s1002_warm", [&](auto& state) {
+    SearchMemory<double> memory(s.real);
+    run(state, s.path, [&](const auto& pose) { return find_contact(s.real, rail, pose, memory); });
+  });
+  for (const auto& [count, poses] : s.by_patches) {
+    add("patches/" + std::to_string(count), [&rail, &s, &poses = poses](auto& state) {
+      run(state, poses, [&](const auto& pose) { return find_contact(s.real, rail, pose); });
+    });
   }
-  for (auto _ : state) {
-    for (const auto& contact : contacts) benchmark::DoNotOptimize(model(contact));
+  for (const auto& [yaw, poses] : s.by_yaw) {
+    add("yaw_mrad/" + std::to_string(yaw), [&rail, &s, &poses = poses](auto& state) {
+      run(state, poses, [&](const auto& pose) { return find_contact(s.real, rail, pose); });
+    });
   }
-  state.SetItemsProcessed(state.iterations() * static_cast<long>(contacts.size()));
 }
 
-BENCHMARK(minimum_distance_convex);
-BENCHMARK(strips_convex);
-BENCHMARK(strips_real);
-BENCHMARK(contact_force);
+// What a search and a force are made of, on the strips and patches of the same poses.
+void add_stages(const Setting& s) {
+  const auto each = [](benchmark::State& state, const auto& items, auto&& body) {
+    for (auto _ : state) {
+      for (const auto& item : items) benchmark::DoNotOptimize(body(item));
+    }
+    state.SetItemsProcessed(state.iterations() * static_cast<long>(items.size()));
+  };
+  const auto& rail = s.rail();
+  add("stage/locus", [&s, each](auto& state) {
+    each(state, s.strips,
+         [&](const auto& at) { return locus_point(s.real, *at.placement, at.lateral, at.point); });
+  });
+  add("stage/rail_solve", [&s, &rail, each](auto& state) {
+    each(state, s.loci,
+         [&](const auto& at) { return rail_foot(rail.profile(), at.lateral, at.up); });
+  });
+  add("stage/refinement", [&s, &rail, each](auto& state) {
+    // One step of Newton's method for a deepest point: a strip with its derivatives.
+    each(state, s.strips, [&](const auto& at) {
+      return detail::LocusStrips(s.real, rail, *at.placement).at(at.piece, at.lateral);
+    });
+  });
+  add("stage/hertz", [&s, each](auto& state) {
+    each(state, s.contacts, [&](const auto& at) { return hertz_shape(at.curvatures); });
+  });
+  add("stage/polach", [&s, each](auto& state) {
+    each(state, s.creep, [&](const auto& at) { return polach_force(at.creepage, at.contact); });
+  });
+  add("stage/contact_force", [&s, each](auto& state) {
+    const ContactForceModel<double> model;
+    each(state, s.contacts, [&](const auto& at) { return model(at); });
+  });
+}
+
+void print_ratios(const Setting& s) {
+  const auto& rail = s.rail();
+  MinimumDistanceMemory<double> distance_memory;
+  SearchMemory<double> memory(s.real), brief_memory(s.real);
+  const auto over = [](const auto& poses, auto search) {
+    return [&poses, search] { return sum_over(poses, search); };
+  };
+  const SearchOptions<double> brief{.zone_ends = false};
+  print_ratio_table(
+      "single poses, cold",
+      {{"minimum distance, convex", over(s.poses,
+                                         [&](const auto& pose) {
+                                           return find_contact_by_minimum_distance(s.convex, rail,
+                                                                                   pose, s.parts);
+                                         })},
+       {"strips, convex",
+        over(s.poses, [&](const auto& pose) { return find_contact(s.convex, rail, pose); })},
+       {"strips, S1002",
+        over(s.poses, [&](const auto& pose) { return find_contact(s.real, rail, pose); })},
+       {"strips, S1002, without zone ends",
+        over(s.poses, [&](const auto& pose) { return find_contact(s.real, rail, pose, brief); })}},
+      s.poses.size());
+  print_ratio_table(
+      "a hunting motion, step by step",
+      {{"minimum distance, convex, cold", over(s.path,
+                                               [&](const auto& pose) {
+                                                 return find_contact_by_minimum_distance(
+                                                     s.convex, rail, pose, s.parts);
+                                               })},
+       {"minimum distance, convex, warm", over(s.path,
+                                               [&](const auto& pose) {
+                                                 return find_contact_by_minimum_distance(
+                                                     s.convex, rail, pose, s.parts,
+                                                     distance_memory);
+                                               })},
+       {"strips, S1002, cold",
+        over(s.path, [&](const auto& pose) { return find_contact(s.real, rail, pose); })},
+       {"strips, S1002, warm",
+        over(s.path, [&](const auto& pose) { return find_contact(s.real, rail, pose, memory); })},
+       {"strips, S1002, cold, without zone ends",
+        over(s.path, [&](const auto& pose) { return find_contact(s.real, rail, pose, brief); })},
+       {"strips, S1002, warm, without zone ends", over(s.path,
+                                                       [&](const auto& pose) {
+                                                         return find_contact(s.real, rail, pose,
+                                                                             brief_memory, brief);
+                                                       })}},
+      s.path.size());
+}
 
 }  // namespace
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  const Setting setting;
+  if (const char* fault = setting.fault()) {
+    std::fprintf(stderr, "contact_bench: %s: nothing is timed\n", fault);
+    return 1;
+  }
+  if (argc == 2 && std::strcmp(argv[1], "--ratios") == 0) {
+    print_ratios(setting);
+    return 0;
+  }
+  add_searches(setting);
+  add_stages(setting);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+}

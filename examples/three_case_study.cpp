@@ -85,7 +85,7 @@ class Study {
   // Calls body(wheelset, search) with what scenario `s` has.
   template <class Body>
   void with_scenario(std::size_t s, Body&& body) const {
-    if (s == 0) body(convex_wheelset_, minimum_distance_);
+    if (s == 0) body(convex_wheelset_, WarmMinimumDistanceSearch<double>(convex_wheelset_));
     if (s == 1)
       body(convex_wheelset_, WarmStripSearch<double>(convex_wheelset_, {.zone_ends = false}));
     if (s == 2) body(real_wheelset_, WarmStripSearch<double>(real_wheelset_, {.zone_ends = false}));
@@ -211,7 +211,6 @@ class Study {
   Wheelset<examples::ConvexWheel> convex_wheelset_{convex_, nominal_radius(),
                                                    vehicle_.profile_spacing};
   ContactForceModel<double> model_;
-  MinimumDistanceSearch<double> minimum_distance_{convex_parts(convex_), {}};
   examples::StudyCases cases_;
   std::mutex mutex_;
 };

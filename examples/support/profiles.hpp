@@ -37,8 +37,7 @@ template <wheelrail::Profile P, class Body>
 [[nodiscard]] auto with_warm_search(const std::string& name, const wheelrail::Wheelset<P>& wheelset,
                                     Body&& body) {
   if (name == "minimum-distance") {
-    return body(wheelrail::MinimumDistanceSearch<double>{
-        wheelrail::convex_parts(wheelset.wheel(wheelrail::Side::left).profile()), {}});
+    return body(wheelrail::WarmMinimumDistanceSearch<double>(wheelset));
   }
   return body(wheelrail::WarmStripSearch<double>(wheelset, {.zone_ends = false}));
 }

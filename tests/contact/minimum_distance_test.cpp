@@ -8,8 +8,10 @@
 #include <wheelrail/profile/s1002.hpp>
 #include <wheelrail/track/tangent_track.hpp>
 
+#include "support/allocation_counter.hpp"
 #include "support/brute_force_contact.hpp"
 #include "support/catch.hpp"
+#include "support/strict_scalar.hpp"
 
 using namespace wheelrail;
 using wheelrail_test::WheelsetPose;
@@ -384,4 +386,242 @@ TEST_CASE("minimum_distance: NaN gives not_finite", "[contact][bad-input]") {
   CHECK(result.patches.empty());
   const auto found = minimum_distance(wheel, rail, placement, parts[1]);
   CHECK(found.proximity == ProximityCase::not_converged);
+}
+
+TEST_CASE("minimum_distance: Newton's step solves the linear system", "[contact][random]") {
+  const Wheel wheel(s1002<double>(), 0.43);
+  const Rail rail(uic50<double>());
+  std::mt19937_64 generator(34);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (const auto form : forms) {
+    for (int i = 0; i < 200; ++i) {
+      WheelPlacement<double> placement;
+      const double yaw = 0.05 * uniform(generator), roll = 0.06 * uniform(generator);
+      placement.position_rail = Vector3<double>(0.01, 0.003, 0.43);
+      placement.sin_yaw = std::sin(yaw);
+      placement.cos_yaw = std::cos(yaw);
+      placement.tan_yaw = placement.sin_yaw / placement.cos_yaw;
+      placement.sin_roll = std::sin(roll);
+      placement.cos_roll = std::cos(roll);
+      const detail::MinimumDistanceEquations equations(wheel, rail, placement, form);
+      const Vector4<double> x(0.1 * uniform(generator), 0.03 * uniform(generator),
+                              0.1 * uniform(generator), 0.045 * uniform(generator));
+      const auto at = equations(x);
+      const Vector4<double> step = equations.newton_step(equations.pair(x));
+      REQUIRE(is_finite(step.sum()));
+      const double size = at.jacobian.cwiseAbs().maxCoeff() * step.lpNorm<Eigen::Infinity>();
+      CAPTURE(i, form);
+      CHECK((at.jacobian * step + at.residual).lpNorm<Eigen::Infinity>() < 1e-13 * (1 + size));
+    }
+  }
+}
+
+TEST_CASE("minimum_distance: the nearest strip found by halving is the nearest of many",
+          "[contact][random]") {
+  const Wheel wheel(Convex(s1002<double>()), 0.43);
+  const auto parts = convex_parts(wheel.profile());
+  std::mt19937_64 generator(35);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (const Track& track : {Track(uic50<double>()), Track(rail_60e1<double>())}) {
+    for (int i = 0; i < 300; ++i) {
+      const Side side = i % 2 == 0 ? Side::left : Side::right;
+      const WheelsetPose pose{0.008 * uniform(generator), 0.4298 + 2e-4 * uniform(generator),
+                              0.005 * uniform(generator), 0.02 * uniform(generator)};
+      const auto placement = place(track, side, pose);
+      const auto& rail = track.rail(side);
+      for (const auto& part : parts) {
+        const double width = part.upper - part.lower;
+        double deepest = -1, nearest = 0;
+        for (int k = 0; k < 1000; ++k) {
+          const double u = part.lower + width * (k + 0.5) / 1000;
+          const auto locus = locus_point(wheel, placement, u, wheel.profile().evaluate(u));
+          REQUIRE(locus.exists);
+          const double depth = rail_foot(rail.profile(), locus.lateral, locus.up).penetration;
+          if (deepest < depth) deepest = depth, nearest = u;
+        }
+        CAPTURE(i, pose.lateral_shift, pose.yaw, pose.roll, part.lower);
+        const auto start = detail::nearest_strip(wheel, rail, placement, part, 6);
+        // The last of six halvings lies within a 64th of the part, and the sample within a 1000th.
+        CHECK(std::abs(start.wheel_lateral - nearest) < width * (1.0 / 64 + 1.0 / 1000));
+      }
+    }
+  }
+}
+
+TEST_CASE("minimum_distance: a warm start gives the answers of a cold one in fewer evaluations",
+          "[contact][random]") {
+  const Wheel wheel(Convex(s1002<double>()), 0.43);
+  const auto parts = convex_parts(wheel.profile());
+  std::mt19937_64 generator(36);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (const auto form : forms) {
+    const Track track(form == forms[0] ? uic50<double>() : rail_60e1<double>());
+    MinimumDistanceOptions<double> options;
+    options.form = form;
+    MinimumDistanceMemory<double> memory;
+    WheelsetPose pose;
+    int patches = 0, flange = 0, without = 0, allocations = 0;
+    long after_jump = 0, cold_after_jump = 0, in_runs = 0, cold_in_runs = 0;
+    for (int i = 0; i < 3000; ++i) {
+      // Runs of 30 small steps, and then a jump anywhere, at times to the other rail.
+      const bool jump = i % 30 == 0;
+      const Side side = i / 300 % 2 == 0 ? Side::left : Side::right;
+      if (jump) {
+        pose.lateral_shift = 0.010 * uniform(generator);
+        pose.roll = 0.005 * uniform(generator);
+        pose.yaw = 0.02 * uniform(generator);
+        set_penetration(pose, wheel, track, side, 1e-4 * uniform(generator));
+      } else {
+        pose.lateral_shift += 2e-5 * uniform(generator);
+        pose.roll += 1e-5 * uniform(generator);
+        pose.yaw += 5e-5 * uniform(generator);
+        pose.height += 2e-6 * uniform(generator);
+      }
+      auto placement = place(track, side, pose);
+      placement.position_rail.x() = 0.01 * i;  // it rolls along
+      const auto& rail = track.rail(side);
+      const auto cold = find_contact_by_minimum_distance(wheel, rail, placement, parts, options);
+      ContactResult<double> warm;
+      allocations += static_cast<int>(wheelrail_test::allocations_of([&] {
+        warm = find_contact_by_minimum_distance(wheel, rail, placement, parts, memory, options);
+      }));
+      CAPTURE(i, form, pose.lateral_shift, pose.roll, pose.yaw, pose.height);
+      CHECK(cold.status == SearchStatus::complete);
+      CHECK(warm.status == cold.status);
+      REQUIRE(warm.patches.size() == cold.patches.size());
+      for (std::size_t k = 0; k < cold.patches.size(); ++k) {
+        const auto &a = warm.patches[k], &b = cold.patches[k];
+        CHECK(std::abs(a.penetration - b.penetration) < 1e-14);
+        CHECK(std::abs(a.wheel_lateral - b.wheel_lateral) < 1e-10);
+        CHECK(std::abs(a.rail_lateral - b.rail_lateral) < 1e-10);
+        CHECK(std::abs(a.longitudinal - b.longitudinal) < 1e-10);
+        CHECK(std::abs(a.wheel_angle - b.wheel_angle) < 1e-10);
+        CHECK((a.position_rail - b.position_rail).norm() < 1e-10);
+        CHECK((a.normal_rail - b.normal_rail).norm() < 1e-9);
+        ++patches;
+        if (b.wheel_lateral < -0.0384) ++flange;
+      }
+      without += cold.patches.empty();
+      (jump ? after_jump : in_runs) += warm.evaluations;
+      (jump ? cold_after_jump : cold_in_runs) += cold.evaluations;
+    }
+    INFO("patches " << patches << ", flange " << flange << ", poses without " << without
+                    << ", evaluations in runs " << in_runs << " of " << cold_in_runs
+                    << ", after jumps " << after_jump << " of " << cold_after_jump);
+    CHECK(patches > 1000);
+    CHECK(flange > 100);
+    CHECK(without > 500);
+    CHECK(allocations == 0);
+    CHECK(3 * in_runs < cold_in_runs);
+    // What a warm start costs where it is of no use.
+    CHECK(after_jump < 2 * cold_after_jump);
+  }
+}
+
+TEST_CASE("minimum_distance: a warm start at the same placement has nothing to do", "[contact]") {
+  const Wheel wheel(Convex(s1002<double>()), 0.43);
+  const Track track(uic50<double>());
+  const auto parts = convex_parts(wheel.profile());
+  WheelsetPose pose{0.001, 0.43, 0.0, 0.01};
+  set_penetration(pose, wheel, track, Side::left, 1e-4);
+  const auto placement = place(track, Side::left, pose);
+  const auto& rail = track.rail(Side::left);
+  MinimumDistanceMemory<double> memory;
+  const auto first = find_contact_by_minimum_distance(wheel, rail, placement, parts, memory);
+  const auto cold = find_contact_by_minimum_distance(wheel, rail, placement, parts);
+  CHECK(first.evaluations == cold.evaluations);
+  CHECK(memory.parts[0].is_known);
+  CHECK(memory.parts[1].is_known);
+  CHECK_FALSE(memory.parts[2].is_known);
+  const auto again = find_contact_by_minimum_distance(wheel, rail, placement, parts, memory);
+  CHECK(again.evaluations <= 4);
+  REQUIRE(again.patches.size() == 1);
+  CHECK(std::abs(again.patches[0].penetration - cold.patches[0].penetration) < 1e-15);
+}
+
+TEST_CASE("minimum_distance: a memory of anything costs time, not the answer",
+          "[contact][random][bad-input]") {
+  const Wheel wheel(Convex(s1002<double>()), 0.43);
+  const Track track(uic50<double>());
+  const auto parts = convex_parts(wheel.profile());
+  const auto& rail = track.rail(Side::left);
+  std::mt19937_64 generator(37);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  int cold_after_all = 0;
+  for (int i = 0; i < 400; ++i) {
+    WheelsetPose pose;
+    pose.lateral_shift = 0.008 * uniform(generator);
+    pose.yaw = 0.02 * uniform(generator);
+    set_penetration(pose, wheel, track, Side::left, 1e-4);
+    const auto placement = place(track, Side::left, pose);
+    MinimumDistanceMemory<double> memory;
+    for (auto& part : memory.parts) {
+      part = {{uniform(generator), 0.04 * uniform(generator), 3 * uniform(generator),
+               0.07 * uniform(generator)},
+              true};
+    }
+    if (i % 10 == 0) memory.parts[1].points.wheel_angle = std::nan("");
+    const auto cold = find_contact_by_minimum_distance(wheel, rail, placement, parts);
+    const auto warm = find_contact_by_minimum_distance(wheel, rail, placement, parts, memory);
+    CAPTURE(i, pose.lateral_shift, pose.yaw);
+    CHECK(warm.status == SearchStatus::complete);
+    REQUIRE(warm.patches.size() == cold.patches.size());
+    for (std::size_t k = 0; k < cold.patches.size(); ++k) {
+      CHECK(std::abs(warm.patches[k].penetration - cold.patches[k].penetration) < 1e-14);
+      CHECK(std::abs(warm.patches[k].wheel_lateral - cold.patches[k].wheel_lateral) < 1e-10);
+    }
+    cold_after_all += cold.evaluations <= warm.evaluations;
+  }
+  CHECK(cold_after_all > 390);
+  // What is not finite is not remembered.
+  WheelPlacement<double> nowhere;
+  nowhere.position_rail = Vector3<double>(0, std::nan(""), 0.43);
+  MinimumDistanceMemory<double> memory;
+  const auto result = find_contact_by_minimum_distance(wheel, rail, nowhere, parts, memory);
+  CHECK(result.status == SearchStatus::not_finite);
+  CHECK_FALSE(memory.parts[0].is_known);
+}
+
+TEMPLATE_TEST_CASE("minimum_distance: any scalar, warm and cold", "[contact]", float, long double,
+                   wheelrail_test::StrictScalar) {
+  using T = TestType;
+  const auto number = [](long double x) { return constant<T>(x); };
+  const auto place_in = [](auto make, auto scalar) {
+    using S = decltype(scalar);
+    WheelPlacement<S> placement;
+    placement.position_rail = Vector3<S>(S(0), make(0.001L), make(0.4295L));
+    placement.sin_yaw = make(0.006L);
+    placement.cos_yaw = make(0.999982L);
+    placement.tan_yaw = placement.sin_yaw / placement.cos_yaw;
+    return placement;
+  };
+  const Wheel<ConvexModification<PiecewiseProfile<T>>> wheel(
+      ConvexModification<PiecewiseProfile<T>>(s1002<T>()), number(0.43L));
+  const Rail<RailHead<T>> rail(uic50<T>());
+  const Wheel wheel_double(Convex(s1002<double>()), 0.43);
+  const Rail rail_double(uic50<double>());
+  const auto expected =
+      find_contact_by_minimum_distance(wheel_double, rail_double, place_in(constant<double>, 0.0),
+                                       convex_parts(wheel_double.profile()));
+  REQUIRE(expected.patches.size() == 1);
+  MinimumDistanceMemory<T> memory;
+  const auto parts = convex_parts(wheel.profile());
+  const auto placement = place_in(number, T(0));
+  const auto as_double = [](const T& x) {
+    if constexpr (std::is_floating_point_v<T>) {
+      return static_cast<double>(x);
+    } else {
+      return x.as_double();
+    }
+  };
+  const double tolerance = std::is_same_v<T, float> ? 2e-7 : 1e-15;
+  for (int i = 0; i < 3; ++i) {
+    const auto found = find_contact_by_minimum_distance(wheel, rail, placement, parts, memory);
+    CHECK(found.status == SearchStatus::complete);
+    REQUIRE(found.patches.size() == 1);
+    CHECK(std::abs(as_double(found.patches[0].penetration) - expected.patches[0].penetration) <
+          tolerance);
+    CHECK(std::abs(as_double(found.patches[0].wheel_lateral) - expected.patches[0].wheel_lateral) <
+          1e5 * tolerance);
+  }
 }

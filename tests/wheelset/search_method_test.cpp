@@ -51,3 +51,32 @@ TEST_CASE("StripSearch, WarmStripSearch, MinimumDistanceSearch: the functions th
   }
   CHECK(fewer > 100);
 }
+
+TEST_CASE("WarmMinimumDistanceSearch: the patches of MinimumDistanceSearch, each side on its own",
+          "[wheelset]") {
+  const ConvexModification profile(s1002<double>());
+  const Wheelset wheelset(profile, 0.43, 1.5);
+  const TangentTrack track(uic50<double>());
+  const MinimumDistanceSearch<double> cold{convex_parts(profile), {}};
+  WarmMinimumDistanceSearch<double> warm(wheelset);
+  int fewer = 0;
+  for (int i = 0; i < 40; ++i) {
+    const auto position = WheelsetPosition<double>::of(1e-5 * i, 0.4297, 0.0, 0.005);
+    WarmMinimumDistanceSearch<double> copy = warm;
+    for (const Side side : sides) {
+      const auto where = place_wheel(wheelset, track, side, position);
+      const auto& wheel = wheelset.wheel(side);
+      const auto expected = cold(wheel, track.rail(side), where);
+      REQUIRE(expected.patches.size() == 1);
+      for (auto* search : {&copy, &warm}) {
+        const auto found = (*search)(wheel, track.rail(side), where);
+        REQUIRE(found.patches.size() == 1);
+        CHECK(found.status == SearchStatus::complete);
+        CHECK(std::abs(found.patches[0].penetration - expected.patches[0].penetration) < 1e-14);
+        CHECK(std::abs(found.patches[0].wheel_lateral - expected.patches[0].wheel_lateral) < 1e-10);
+        fewer += 2 * found.evaluations < expected.evaluations;
+      }
+    }
+  }
+  CHECK(fewer == 4 * 39);
+}

@@ -58,4 +58,32 @@ struct MinimumDistanceSearch {
   }
 };
 
+/// MinimumDistanceSearch with a warm start, for one wheelset that moves by small steps. Keep one for
+/// each wheelset; a copy has memories of its own.
+template <Real T>
+class WarmMinimumDistanceSearch {
+ public:
+  /// @throws std::invalid_argument as convex_parts does.
+  /// @note Allocates; searches do not.
+  template <Profile P>
+  explicit WarmMinimumDistanceSearch(const Wheelset<P>& wheelset,
+                                     const MinimumDistanceOptions<T>& options = {})
+      : options_(options),
+        parts_{convex_parts(wheelset.wheel(Side::left).profile()),
+               convex_parts(wheelset.wheel(Side::right).profile())} {}
+
+  template <Profile P, Profile R>
+  [[nodiscard]] ContactResult<T> operator()(const Wheel<P>& wheel, const Rail<R>& rail,
+                                            const WheelPlacement<T>& placement) {
+    const auto side = index_of(placement.side);
+    return find_contact_by_minimum_distance(wheel, rail, placement, parts_[side], memories_[side],
+                                            options_);
+  }
+
+ private:
+  MinimumDistanceOptions<T> options_;
+  std::array<ConvexParts<T>, 2> parts_;                 // ordered as `sides`
+  std::array<MinimumDistanceMemory<T>, 2> memories_{};  // ordered as `sides`
+};
+
 }  // namespace wheelrail
