@@ -69,7 +69,8 @@ namespace detail {
   text +=
       "\nThe real-time factor is simulated time over processor time of one core. Evaluations: "
       "strips "
-      "and Newton systems.";
+      "and Newton systems. Searches start from what was found before, those by strips without the "
+      "zones' ends.";
   if (of.repetitions > 1) {
     text += repeats ? " Every repetition gave the same motion and forces to the last bit."
                     : " NOT every repetition gave the same motion and forces.";

@@ -31,7 +31,7 @@ TEST_CASE("SearchMemory: holds for one rail, one threshold and a wheel that move
   const auto here = placed(0, 0.43, 0.01, 0);
   CHECK_FALSE(memory.covers(uic, here, 0));
   memory.restart(uic, here, 0);
-  memory.parts().emplace_back();
+  memory.add({});
   CHECK(memory.covers(uic, here, 0));
   CHECK(memory.covers(again, here, 0));
   CHECK_FALSE(memory.covers(other, here, 0));
@@ -95,4 +95,21 @@ TEST_CASE("SearchMemory: a skin out of range is named", "[contact][bad-input]") 
                     Catch::Matchers::Contains("search memory: skin is 0"));
   CHECK_THROWS_WITH(SearchMemory<double>(wheel, std::nan("")),
                     Catch::Matchers::Contains("search memory: skin"));
+}
+
+TEST_CASE("SearchMemory: allows for less motion where the wheel moves less", "[contact]") {
+  const Wheel wheel(s1002<double>(), 0.43);
+  const Rail rail(uic50<double>());
+  SearchMemory<double> memory(wheel, 1e-4);
+  double lateral = 0;
+  const auto search = [&](double step) {
+    lateral += step;
+    const auto here = placed(lateral, 0.43, 0, 0);
+    if (!memory.covers(rail, here, 0)) memory.restart(rail, here, 0);
+    memory.begin_search();
+  };
+  for (int i = 0; i < 3000; ++i) search(1e-7);
+  CHECK(memory.motion().distance == 1e-4 / 16);
+  for (int i = 0; i < 100; ++i) search(2e-5);
+  CHECK(memory.motion().distance == 1e-4);
 }

@@ -71,7 +71,7 @@ class StripWalk {
         memory_->restart(rail_, placement_, threshold);
         remember_parts();
       }
-      memory_->begin_zone_ends();
+      memory_->begin_search();
       for (auto& part : memory_->parts()) visit_remembered(part);
     }
     leave_zone();
@@ -126,8 +126,8 @@ class StripWalk {
     if (lies_above(left, node, motion.distance) || lies_above(right, node, motion.distance)) return;
     const Indexed first{left, node.first}, last{right, node.last};
     if (node.skip == index + 1) {
-      remember_between(first, last, node.shape, bounds, 0);
-    } else if (!remember_if_known(first, last, node.shape, bounds)) {
+      remember_leaf(index, first, last, bounds);
+    } else if (remember_if_known(first, last, node.shape, bounds).verdict == Verdict::open) {
       const StripNode<T>& child = nodes[static_cast<std::size_t>(index + 1)];
       const Strip middle = strips_.of_wheel(child.last);
       remember_node(index + 1, left, middle, bounds);
@@ -135,45 +135,48 @@ class StripWalk {
     }
   }
 
-  // Between two strips of a leaf: divided until all is known, or enough.
-  void remember_between(const Indexed& left, const Indexed& right, const ShapeBounds<T>& shape,
-                        const PenetrationBounds<R>& bounds, int depth) {
-    if (remember_if_known(left, right, shape, bounds)) return;
-    const int piece = left.strip.piece;
-    const T lower = left.strip.wheel_lateral, upper = right.strip.wheel_lateral;
-    if (depth == 1 || !can_prove_ || !memory_->has_room()) {
-      remember({left.strip, right.strip, left.index, right.index, false});
-      return;
+  // A leaf with the strips at its ends: divided once where that helps.
+  void remember_leaf(int index, const Indexed& left, const Indexed& right,
+                     const PenetrationBounds<R>& bounds) {
+    const auto& shape = wheel_.strips().nodes()[static_cast<std::size_t>(index)].shape;
+    const Judgement<T> judgement = remember_if_known(left, right, shape, bounds);
+    if (judgement.verdict != Verdict::open) return;
+    if (judgement.is_bounded && can_prove_ && memory_->has_room()) {
+      const int piece = left.strip.piece;
+      const T lower = left.strip.wheel_lateral, upper = right.strip.wheel_lateral;
+      const Indexed middle{strips_.at(piece, T(lower + (upper - lower) / T(2))), -1};
+      const std::size_t known = memory_->parts().size();
+      const auto is_known = [&](const Indexed& one, const Indexed& other) {
+        const auto within = shape_bounds(wheel_.profile(), piece, one.strip.wheel_lateral,
+                                         other.strip.wheel_lateral);
+        return remember_if_known(one, other, within, bounds).verdict != Verdict::open;
+      };
+      if (is_known(left, middle) && is_known(middle, right)) return;
+      memory_->truncate(known);
     }
-    const Indexed middle{strips_.at(piece, T(lower + (upper - lower) / T(2))), -1};
-    const T& at = middle.strip.wheel_lateral;
-    remember_between(left, middle, shape_bounds(wheel_.profile(), piece, lower, at), bounds,
-                     depth + 1);
-    remember_between(middle, right, shape_bounds(wheel_.profile(), piece, at, upper), bounds,
-                     depth + 1);
+    remember({left.strip, right.strip, left.index, right.index, false, index});
   }
 
-  // Returns whether the verdict on what lies between two strips will hold.
-  [[nodiscard]] bool remember_if_known(const Indexed& left, const Indexed& right,
-                                       const ShapeBounds<T>& shape,
-                                       const PenetrationBounds<R>& bounds) {
+  // Returns the judgement on what lies between two strips, as it will hold.
+  Judgement<T> remember_if_known(const Indexed& left, const Indexed& right,
+                                 const ShapeBounds<T>& shape, const PenetrationBounds<R>& bounds) {
     const auto& motion = memory_->motion();
     const MovingStrip<T> moving_left = bounds.moving(left.strip, shape, motion);
     const MovingStrip<T> moving_right = bounds.moving(right.strip, shape, motion);
-    const Verdict verdict = bounds.judge(moving_left, moving_right, shape).verdict;
+    const Judgement<T> judgement = bounds.judge(moving_left, moving_right, shape);
     // Without a maximum between two ends that stay outside there is nothing.
     const bool may_rise = T(0) < moving_left.greatest_slope() && moving_right.least_slope() < T(0);
-    if (verdict == Verdict::simple &&
+    if (judgement.verdict == Verdict::simple &&
         (may_rise || !stays_outside(moving_left) || !stays_outside(moving_right))) {
       remember({remembered(left, moving_left), remembered(right, moving_right), left.index,
                 right.index, true});
     }
-    return verdict != Verdict::open;
+    return judgement;
   }
 
   void remember(RememberedPart<T> part) {
     using Joins = typename RememberedPart<T>::Joins;
-    auto& parts = memory_->parts();
+    const auto parts = memory_->parts();
     if (!parts.empty() && parts.back().right.wheel_lateral == part.left.wheel_lateral) {
       const bool same_piece = parts.back().right.piece == part.left.piece;
       part.joins = same_piece ? Joins::same : Joins::joint;
@@ -182,7 +185,7 @@ class StripWalk {
       settle_outside(part.left);
     }
     part.extremum = extremum_guess(part.left, part.right);
-    parts.push_back(part);
+    memory_->add(part);
   }
 
   // What lies beside the remembered parts stays outside, and so do their ends there.
@@ -230,7 +233,8 @@ class StripWalk {
     if (part.is_simple) {
       visit_extremum(left, right, part.extremum);
     } else {
-      visit_part(left, right, 0);
+      const auto& leaf = wheel_.strips().nodes()[static_cast<std::size_t>(part.leaf)];
+      if (!lies_above(left, leaf) && !lies_above(right, leaf)) visit_part(left, right, 0);
     }
     visit(right);
   }

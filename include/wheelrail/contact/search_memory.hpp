@@ -12,6 +12,7 @@
 /// |o' - o| + (|u| + R) |a' - a| from one that it may be taken for: o is the profile's origin, a the
 /// axle's direction, |u| and R the greatest of the profile; turning about the axle does not matter.
 
+#include <span>
 #include <vector>
 #include <wheelrail/contact/detail/penetration_bounds.hpp>
 #include <wheelrail/core/fixed_list.hpp>
@@ -25,8 +26,10 @@ template <Real T>
 struct RememberedPart {
   LocusStrip<T> left, right;  // at its ends; not exact: their signs hold, do not look at them again
   int left_index = -1, right_index = -1;  // among the wheel's strips, if they are
-  bool is_simple = false;  // the penetration has one extremum at most; otherwise nothing is known
-  T extremum{};            // where it was last
+  // The penetration has one extremum at most; otherwise nothing is known, and this is a leaf:
+  bool is_simple = false;
+  int leaf = -1;  // this node of the strip tree
+  T extremum{};   // where it was last
   // What lies to the left: nothing near the rail, another piece, or a part with the same strip.
   enum class Joins { apart, joint, same } joins = Joins::apart;
 };
@@ -39,33 +42,37 @@ struct RememberedPart {
 template <Real T>
 class SearchMemory {
  public:
-  /// @param skin how far the wheel may move before its surroundings are looked at anew [m].
+  /// @param skin how far the wheel may move, at most, before its surroundings are looked at anew [m].
+  ///   Where it moves less, less is allowed for, down to a sixteenth: so more can be known.
   /// @throws std::invalid_argument unless skin is finite and > 0.
   /// @note Allocates; searches do not.
   template <Profile P>
   explicit SearchMemory(const Wheel<P>& wheel, const T& skin = constant<T>(5e-5L))
       : motion_{skin, detail::max(detail::magnitude(wheel.profile().lower()),
                                   detail::magnitude(wheel.profile().upper())) +
-                          wheel.strips().greatest_radius()} {
+                          wheel.strips().greatest_radius()},
+        skin_(skin),
+        parts_(2 * wheel.strips().strips().size()) {
     detail::require_positive("search memory: skin", skin, "[m]");
-    parts_.reserve(2 * wheel.strips().strips().size());
   }
 
   /// The motion that is allowed for.
   [[nodiscard]] const detail::WheelMotion<T>& motion() const { return motion_; }
-  /// Whether the wheel may be divided into more parts than it has strips.
-  [[nodiscard]] bool has_room() const { return 2 * parts_.size() < parts_.capacity(); }
   /// Those near the rail, from the flange to the field side.
-  [[nodiscard]] std::vector<detail::RememberedPart<T>>& parts() { return parts_; }
+  [[nodiscard]] std::span<detail::RememberedPart<T>> parts() { return {parts_.data(), count_}; }
+  /// Whether the wheel may be divided into more parts than it has strips.
+  [[nodiscard]] bool has_room() const { return 2 * count_ < parts_.size(); }
+  /// @pre fewer parts than twice the wheel's strips
+  void add(const detail::RememberedPart<T>& part) { parts_[count_++] = part; }
+  /// Keeps the first `count` ones. @pre count <= parts().size()
+  void truncate(std::size_t count) { count_ = count; }
 
   /// Whether what is remembered holds at `placement`, for zones deeper than `threshold` [m].
   template <Profile R>
   [[nodiscard]] bool covers(const Rail<R>& rail, const WheelPlacement<T>& placement,
                             const T& threshold) const {
     using std::sqrt;
-    if (!is_valid_ || !(checksum_ == rail.checksum()) || !(threshold_ == threshold)) {
-      return false;
-    }
+    if (!is_valid_ || !(checksum_ == rail.checksum()) || !(threshold_ == threshold)) return false;
     const T lateral = placement.position_rail.y() - lateral_;
     const T up = placement.position_rail.z() - up_;
     const Vector3<T> turn = axle_rail(placement) - axle_rail_;
@@ -76,7 +83,14 @@ class SearchMemory {
   /// Forgets all: what is known at `placement` will be put here.
   template <Profile R>
   void restart(const Rail<R>& rail, const WheelPlacement<T>& placement, const T& threshold) {
-    parts_.clear();
+    constexpr int many_searches = 64, few_searches = 24;
+    if (is_valid_ && searches_ < few_searches) {
+      motion_.distance = detail::min(skin_, T(T(2) * motion_.distance));
+    } else if (is_valid_ && many_searches < searches_) {
+      motion_.distance = detail::max(T(skin_ / T(16)), T(motion_.distance / T(2)));
+    }
+    searches_ = 0;
+    count_ = 0;
     checksum_ = rail.checksum();
     threshold_ = threshold;
     lateral_ = placement.position_rail.y();
@@ -85,8 +99,9 @@ class SearchMemory {
     is_valid_ = true;
   }
 
-  /// Before a search: the zones' ends that were found are those of the search before now.
-  void begin_zone_ends() {
+  /// The zones' ends that were found are those of the search before now.
+  void begin_search() {
+    ++searches_;
     last_zone_ends_ = zone_ends_;
     zone_ends_.clear();
   }
@@ -107,7 +122,10 @@ class SearchMemory {
   }
 
   detail::WheelMotion<T> motion_;
-  std::vector<detail::RememberedPart<T>> parts_;
+  T skin_;
+  int searches_ = 0;                              // since the last restart
+  std::vector<detail::RememberedPart<T>> parts_;  // of which the first count_ count
+  std::size_t count_ = 0;
   ZoneEnds zone_ends_, last_zone_ends_;
   bool is_valid_ = false;
   T checksum_{};

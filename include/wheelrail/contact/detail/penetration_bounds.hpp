@@ -92,17 +92,19 @@ class PenetrationBounds {
         turn *
         (speed + yaw + (slope * slope + bend) * (T(1) + widened) * yaw +
          widened * sine * (slope * slope + T(2) * bend + square(T(sine / cosine)) * bend) / cosine);
-    // The foot of a point in a convex body's neighbourhood moves no farther than the point outside
-    // it, and at most twice as far where the point is less than half a radius of curvature inside.
+    // The foot of a point outside a convex body moves no farther than the point; of one inside by p,
+    // where the curvature is at most k and k p < 1/2, at most 1 / (1 - k p) < 2 times as far.
     const T deepest = max(T(0), T(strip.penetration + travel));
     result.foot = strip.rail_lateral;
-    result.foot_change = deepest == T(0) ? travel : T(T(2) * travel);
+    result.foot_change = T(2) * travel;
     const R& rail = rail_.profile();
-    if (!(rail.lower() < result.least_foot()) || !(result.greatest_foot() < rail.upper()) ||
-        !(deepest * rail_.greatest_curvature(result.least_foot(), result.greatest_foot()) <
-          constant<T>(0.5L))) {
+    if (!(rail.lower() < result.least_foot()) || !(result.greatest_foot() < rail.upper())) {
       return result;
     }
+    const T curved =
+        deepest * rail_.greatest_curvature(result.least_foot(), result.greatest_foot());
+    if (!(curved < constant<T>(0.5L))) return result;
+    result.foot_change = travel / (T(1) - curved);
     const auto normal_at = [&](const T& lateral) {
       const Vector3<T> normal_rail = Rail<R>::normal_rail(rail.evaluate(lateral));
       return Vector2<T>(normal_rail.y(), normal_rail.z());
