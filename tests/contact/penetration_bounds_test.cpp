@@ -70,8 +70,8 @@ TEST_CASE("moving: no strip leaves its bounds while the wheel moves", "[contact]
     const double lower = std::max(u - half_width, profile.joint(piece));
     const double upper = std::min(u + half_width, profile.joint(piece + 1));
     const auto shape = shape_bounds(profile, piece, lower, upper);
-    const detail::PenetrationBounds<RailHead<double>> bounds(
-        rail, wheel.strips().greatest_radius(), motion.greatest_tan_yaw(before.tan_yaw), 0.0);
+    const detail::PenetrationBounds<RailHead<double>> bounds(rail, wheel.strips().greatest_radius(),
+                                                             before, 0.0, motion);
     const auto strip = strip_at(before, u);
     const auto moving = bounds.moving(strip, shape, motion);
     if (!moving.exists) continue;

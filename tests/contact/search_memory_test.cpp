@@ -42,6 +42,8 @@ TEST_CASE("SearchMemory: holds for one rail, one threshold and a wheel that move
   CHECK_FALSE(memory.covers(uic, placed(1.01 * memory.motion().distance, 0.43, 0.01, 0), 0));
   CHECK_FALSE(memory.covers(uic, placed(0, 0.43 - 1.01 * memory.motion().distance, 0.01, 0), 0));
   CHECK(memory.parts().size() == 1);
+  CHECK(memory.is_for(wheel));
+  CHECK_FALSE(memory.is_for(Wheel(s1002<double>(), 0.43, 1e-3)));
   memory.restart(uic, here, 0);
   CHECK(memory.parts().empty());
 }
@@ -95,6 +97,8 @@ TEST_CASE("SearchMemory: a skin out of range is named", "[contact][bad-input]") 
                     Catch::Matchers::Contains("search memory: skin is 0"));
   CHECK_THROWS_WITH(SearchMemory<double>(wheel, std::nan("")),
                     Catch::Matchers::Contains("search memory: skin"));
+  CHECK_THROWS_WITH(SearchMemory<double>(wheel, 0.01),
+                    Catch::Matchers::Contains("search memory: skin is 0.01"));
 }
 
 TEST_CASE("SearchMemory: allows for less motion where the wheel moves less", "[contact]") {

@@ -54,7 +54,7 @@ class StripWalk {
         margin_(T(64) * epsilon<T>() * wheel.nominal_radius()),
         strips_(wheel, rail, placement),
         near_(wheel, rail, placement, T(options.penetration_threshold - margin_)),
-        bounds_(rail, wheel.strips().greatest_radius(), placement.tan_yaw,
+        bounds_(rail, wheel.strips().greatest_radius(), placement,
                 T(options.penetration_threshold - margin_)) {
     using std::sqrt;
     grid_ = sqrt(epsilon<T>()) * wheel.nominal_radius();
@@ -62,7 +62,7 @@ class StripWalk {
 
   [[nodiscard]] ContactResult<T> run() {
     result_.is_proved = can_prove_;
-    if (memory_ == nullptr) {
+    if (memory_ == nullptr || !can_prove_) {
       const int feet = near_.for_each(T(0), [this](int block) { visit_block(block); });
       result_.evaluations += feet;
     } else {
@@ -106,9 +106,8 @@ class StripWalk {
   // What is near the rail, and what will be known of it during the memory's motion.
   void remember_parts() {
     const auto& motion = memory_->motion();
-    const PenetrationBounds<R> bounds(rail_, wheel_.strips().greatest_radius(),
-                                      motion.greatest_tan_yaw(placement_.tan_yaw),
-                                      T(options_.penetration_threshold - margin_));
+    const PenetrationBounds<R> bounds(rail_, wheel_.strips().greatest_radius(), placement_,
+                                      T(options_.penetration_threshold - margin_), motion);
     const int feet = near_.for_each(motion.distance, [&](int block) {
       const StripNode<T>& node = wheel_.strips().nodes()[static_cast<std::size_t>(block)];
       const Strip left = strips_.edge(node.first);
@@ -536,8 +535,9 @@ template <Profile P, Profile R>
 
 /// All patches between @p wheel and @p rail at @p placement.
 /// @return one patch for each zone of the wheel profile whose locus lies under the rail's surface, in
-///   the order of wheel_lateral; wheel_lateral, penetration and the zone's ends are solved for to
-///   rounding (an end that zone_is_cut tells of: to a strip). Strips whose foot lies beyond the
+///   the order of wheel_lateral; penetration is solved for to rounding, wheel_lateral and the zone's
+///   ends to the square of sqrt(epsilon) radii over the profile's own radius: hardly more (an end that
+///   zone_is_cut tells of: to a strip). Strips whose foot lies beyond the
 ///   rail profile's ends do not count as penetrating. Where a zone holds several local maxima the
 ///   deepest is its patch.
 /// @note Does not allocate. Equations (57), (59), (61), (62) of the paper.
@@ -549,13 +549,16 @@ template <Profile P, Profile R>
 }
 
 /// The same with a warm start: the same patches to the last bit, whatever @p memory holds, in less
-/// time where the wheel stands nearly as in the search before.
-/// @param memory of this wheel on this rail; one search at a time may use it.
+/// time where the wheel stands nearly as in the search before. (Newton's method may in principle end
+/// on another one of two multiples of its grid between which rounding decides: a difference of
+/// rounding, which no test has met.) options.maximum_evaluations counts what this search evaluates.
+/// @param memory made for this wheel, used on this rail; one search at a time may use it.
 template <Profile P, Profile R>
 [[nodiscard]] ContactResult<typename P::Scalar> find_contact(
     const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
     SearchMemory<typename P::Scalar>& memory,
     const SearchOptions<typename P::Scalar>& options = {}) {
+  WHEELRAIL_ASSERT(memory.is_for(wheel));
   return detail::find_contact<P, R>(wheel, rail, placement, options, &memory);
 }
 

@@ -44,7 +44,7 @@ class SearchMemory {
  public:
   /// @param skin how far the wheel may move, at most, before its surroundings are looked at anew [m].
   ///   Where it moves less, less is allowed for, down to a sixteenth: so more can be known.
-  /// @throws std::invalid_argument unless skin is finite and > 0.
+  /// @throws std::invalid_argument unless skin is > 0 and at most a hundredth of the wheel's reach.
   /// @note Allocates; searches do not.
   template <Profile P>
   explicit SearchMemory(const Wheel<P>& wheel, const T& skin = constant<T>(5e-5L))
@@ -54,8 +54,15 @@ class SearchMemory {
         skin_(skin),
         parts_(2 * wheel.strips().strips().size()) {
     detail::require_positive("search memory: skin", skin, "[m]");
+    detail::require(T(100) * skin <= motion_.reach, "search memory: skin", skin,
+                    "at most a hundredth of the wheel's greatest radius and width [m]");
   }
 
+  /// Whether it may have been made for `wheel`: by the number of its strips.
+  template <Profile P>
+  [[nodiscard]] bool is_for(const Wheel<P>& wheel) const {
+    return parts_.size() == 2 * wheel.strips().strips().size();
+  }
   /// The motion that is allowed for.
   [[nodiscard]] const detail::WheelMotion<T>& motion() const { return motion_; }
   /// Those near the rail, from the flange to the field side.

@@ -30,7 +30,8 @@ struct RootOptions {
   int maximum_iterations = 100;
   /// Of bracketed_newton: f is evaluated at multiples of about this only [unit of x], until a step
   /// leads back to where it came from: that step's end is the root. So the root does not depend on
-  /// the start, but by what rounding may decide between two neighbouring multiples. 0: anywhere.
+  /// the start, but by what rounding may decide between two neighbouring multiples. Where the slope
+  /// is of no use, it is within one of them. 0: anywhere.
   T grid = T(0);
 };
 
@@ -99,17 +100,24 @@ template <Real T, class Function>
       return result;
     }
     ((at.value < T(0)) == rising ? lower : upper) = x;
-    // A Newton step that does not at least halve the step before the last one is not converging.
+    // A Newton step that does not at least halve the step before the last one is not converging,
+    // unless the grid makes it so.
     const T newton = x - at.value / at.slope;
-    const bool usable =
-        is_finite(newton) && lower < newton && newton < upper &&
-        T(2) * detail::magnitude(T(newton - x)) <= detail::magnitude(step_before_last);
+    const T newton_step = detail::magnitude(T(newton - x));
+    const bool usable = is_finite(newton) && lower < newton && newton < upper &&
+                        (T(2) * newton_step <= detail::magnitude(step_before_last) ||
+                         (on_grid && newton_step <= options.grid));
     const T next = usable ? newton : T(lower + (upper - lower) / T(2));
     step_before_last = last_step;
     last_step = next - x;
-    const T next_x = on_grid ? detail::rounded_to(next, options.grid) : next;
+    // Where the bracket has no multiple near the next iterate, there is no grid.
+    const T multiple = on_grid ? detail::rounded_to(next, options.grid) : next;
+    const bool fits = on_grid && (multiple == x || (lower < multiple && multiple < upper));
+    const T next_x = fits ? multiple : next;
+    const bool is_back = next_x == x || (next_x == before && 1 < result.iterations &&
+                                         detail::magnitude(last_step) <= T(2) * options.grid);
     if (detail::magnitude(last_step) <= detail::root_step_tolerance(x, options) ||
-        (on_grid && (next_x == x || (next_x == before && 1 < result.iterations)))) {
+        (fits && is_back)) {
       result.position = next;
       result.status = SolveStatus::converged;
       return result;

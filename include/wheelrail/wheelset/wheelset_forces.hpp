@@ -122,7 +122,7 @@ template <Profile P, class Track, class Search>
 /// @param track anything with `rail(side)` and `nearest_frame(side, point_track, guess)`.
 /// @param at where the wheelset is, @param motion how it moves, both in the track frame.
 /// @param search StripSearch or, from step to step, WarmStripSearch for any profile;
-///   MinimumDistanceSearch for convex ones.
+///   MinimumDistanceSearch or WarmMinimumDistanceSearch for convex ones.
 /// @return patches, forces and the wrench about the axle's centre. The creep moment about a
 ///   contact's normal is neglected (80).
 /// @note Does not allocate. A mirrored input gives the mirrored result to the last bit.

@@ -49,6 +49,10 @@ struct WheelMotion {
   T distance{};  ///< [m]
   T reach{};     ///< [m]
 
+  /// By how much yaw and roll may each change [rad]. @pre 100 distance <= reach, here and below
+  [[nodiscard]] T greatest_turn(const T& tan_yaw) const {
+    return constant<T>(1.01L) * (T(1) + tan_yaw * tan_yaw) * distance / reach;
+  }
   /// Not less than |tan yaw| after the motion.
   [[nodiscard]] T greatest_tan_yaw(const T& tan_yaw) const {
     return magnitude(tan_yaw) + constant<T>(1.1L) * (T(1) + tan_yaw * tan_yaw) * distance / reach;
@@ -62,11 +66,16 @@ class PenetrationBounds {
   using T = typename R::Scalar;
 
   /// @param greatest_radius of the wheel [m]. @param threshold of a zone's penetration [m].
-  PenetrationBounds(const Rail<R>& rail, const T& greatest_radius, const T& tan_yaw,
-                    const T& threshold)
+  /// @param motion that the bounds allow for besides the placement's own yaw and roll.
+  PenetrationBounds(const Rail<R>& rail, const T& greatest_radius,
+                    const WheelPlacement<T>& placement, const T& threshold,
+                    const WheelMotion<T>& motion = {T(0), T(1)})
       : rail_(rail),
         radius_(greatest_radius),
-        squared_tan_yaw_(tan_yaw * tan_yaw),
+        cos_roll_(placement.cos_roll),
+        sin_roll_(placement.sin_roll),
+        squared_tan_yaw_(square(motion.greatest_tan_yaw(placement.tan_yaw))),
+        turn_(motion.greatest_turn(placement.tan_yaw)),
         threshold_(threshold) {}
 
   /// What a strip keeps within during a motion, by the derivatives of (57) and (59) by yaw and roll.
@@ -81,7 +90,7 @@ class PenetrationBounds {
     if (!strip.exists || !(sine * sine < constant<T>(0.5L))) return result;
     const T cosine = sqrt(T(T(1) - sine * sine));
     // Yaw and roll each change by at most this much; the locus and its rate by rolling and yawing:
-    const T turn = constant<T>(1.01L) * widened * motion.distance / motion.reach;
+    const T& turn = turn_;
     const T by_turn = motion.reach * (T(1) + yaw) + radius_ * sine * yaw +
                       radius_ * sine * (T(1) + widened + slope * widened / cosine);
     const T travel = max(motion.distance, T(turn * by_turn));
@@ -161,12 +170,16 @@ class PenetrationBounds {
     // So the foot moves one way, from the left strip's to the right one's, and so does the normal.
     const T first_foot = min(left.least_foot(), right.least_foot());
     const T last_foot = max(left.greatest_foot(), right.greatest_foot());
+    // Along the axes that the wheel's roll turns.
     T least_up = T(1), greatest_up = T(0);
     bool leans_left = false, leans_right = false;
     const auto take = [&](const Vector2<T>& normal) {
-      least_up = min(least_up, normal.y());
-      greatest_up = max(greatest_up, normal.y());
-      (normal.x() < T(0) ? leans_left : leans_right) = true;
+      const T up = normal.y() * cos_roll_ - normal.x() * sin_roll_;
+      const T lateral = normal.x() * cos_roll_ + normal.y() * sin_roll_;
+      least_up = min(least_up, T(up - turn_));
+      greatest_up = max(greatest_up, T(up + turn_));
+      leans_left = leans_left || !(turn_ < lateral);
+      leans_right = leans_right || !(lateral < -turn_);
     };
     take(left.normal_at_least_foot());
     take(left.normal_at_greatest_foot());
@@ -221,7 +234,9 @@ class PenetrationBounds {
 
   const Rail<R>& rail_;
   T radius_;
+  T cos_roll_, sin_roll_;
   T squared_tan_yaw_;
+  T turn_;  // by which yaw and roll each may change [rad]
   T threshold_;
 };
 
