@@ -86,7 +86,9 @@ struct Setting {
   std::vector<CreepItem> creep;
 
   Setting() {
-    while (poses.size() < 256) add_pose(poses, between(-0.006, 0.006), between(-0.01, 0.01));
+    for (int i = 0; i < 1000 && poses.size() < 256; ++i) {
+      add_pose(poses, between(-0.006, 0.006), between(-0.01, 0.01));
+    }
     for (const Placement& pose : poses) float_poses.push_back(rounded(pose));
     // 18.3 m/s, a wavelength of 12 m, an amplitude of 5.5 mm: into the flange's fillet and out again.
     for (int i = 0; i < 4096; ++i) {
@@ -94,12 +96,12 @@ struct Setting {
       add_pose(path, 0.0055 * std::sin(phase), 0.0055 * 0.5235987756 * std::cos(phase), 5e-5);
     }
     for (const int yaw : {1, 10, 30}) {
-      while (by_yaw[yaw].size() < 128) {
+      for (int i = 0; i < 1000 && by_yaw[yaw].size() < 128; ++i) {
         const double sign = by_yaw[yaw].size() % 2 == 0 ? 1 : -1;
         add_pose(by_yaw[yaw], between(-0.006, 0.006), sign * yaw * 1e-3);
       }
     }
-    while (by_patches[0].size() < 128) {
+    for (int i = 0; i < 1000 && by_patches[0].size() < 128; ++i) {
       add_pose(by_patches[0], between(-0.006, 0.006), between(-0.01, 0.01), -between(5e-6, 8e-5));
     }
     for (int tries = 0; tries < 20000 && !is_full(); ++tries) {
@@ -131,7 +133,7 @@ struct Setting {
       }
       return one.status != SearchStatus::complete || other.status != SearchStatus::complete;
     };
-    if (!is_full()) return "too few poses of some number of patches";
+    if (!is_full() || poses.size() < 256 || path.size() < 4096) return "poses are missing";
     int float_misses = 0;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const auto& pose = poses[i];
@@ -169,7 +171,10 @@ struct Setting {
   }
 
   [[nodiscard]] bool is_full() const {
-    for (const int count : {1, 2, 3}) {
+    for (const auto& [yaw, set] : by_yaw) {
+      if (set.size() < 128) return false;
+    }
+    for (const int count : {0, 1, 2, 3}) {
       const auto found = by_patches.find(count);
       if (found == by_patches.end() || found->second.size() < 128) return false;
     }

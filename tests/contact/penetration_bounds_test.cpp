@@ -8,23 +8,10 @@
 #include <wheelrail/profile/s1002.hpp>
 
 #include "support/catch.hpp"
+#include "support/placed.hpp"
 
 using namespace wheelrail;
-
-namespace {
-
-WheelPlacement<double> placed(double lateral, double up, double yaw, double roll) {
-  WheelPlacement<double> placement;
-  placement.position_rail = {0, lateral, up};
-  placement.sin_yaw = std::sin(yaw);
-  placement.cos_yaw = std::cos(yaw);
-  placement.tan_yaw = std::tan(yaw);
-  placement.sin_roll = std::sin(roll);
-  placement.cos_roll = std::cos(roll);
-  return placement;
-}
-
-}  // namespace
+using wheelrail_test::placed;
 
 TEST_CASE("moving: no strip leaves its bounds while the wheel moves", "[contact][random]") {
   const auto profile = s1002<double>();

@@ -458,8 +458,9 @@ class StripWalk {
     const T share = boundary_share(left, right);
     T start =
         between(left, right, PenetrationCubic<T>(left, right, threshold).near_root(share), share);
-    if (memory_ != nullptr)
-      memory_->improve_zone_end(left.wheel_lateral, right.wheel_lateral, start);
+    if (memory_ != nullptr) {
+      start = memory_->zone_end_between(left.wheel_lateral, right.wheel_lateral, start);
+    }
     bool lost = false;
     const T left_side = penetrates(left) ? T(1) : T(-1);  // all that matters of the values there
     const auto root = bracketed_newton<T>(

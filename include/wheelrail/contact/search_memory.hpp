@@ -113,11 +113,12 @@ class SearchMemory {
     zone_ends_.clear();
   }
   void add_zone_end(const T& lateral) { static_cast<void>(zone_ends_.push_back(lateral)); }
-  /// A zone's end of the search before between two laterals, if there is one, in `start`.
-  void improve_zone_end(const T& lower, const T& upper, T& start) const {
+  /// A zone's end of the search before between two laterals, if there is one, or `otherwise` [m].
+  [[nodiscard]] T zone_end_between(const T& lower, const T& upper, const T& otherwise) const {
     for (const T& lateral : last_zone_ends_) {
-      if (lower < lateral && lateral < upper) start = lateral;
+      if (lower < lateral && lateral < upper) return lateral;
     }
+    return otherwise;
   }
 
  private:
