@@ -11,9 +11,11 @@
 #include "support/allocation_counter.hpp"
 #include "support/brute_force_contact.hpp"
 #include "support/catch.hpp"
+#include "support/placed.hpp"
 #include "support/strict_scalar.hpp"
 
 using namespace wheelrail;
+using wheelrail_test::placed;
 using wheelrail_test::WheelsetPose;
 
 namespace {
@@ -72,14 +74,9 @@ TEST_CASE("minimum_distance: the Jacobian is that of differences", "[contact][ra
   int compared = 0;
   for (const auto form : forms) {
     for (int i = 0; i < 300; ++i) {
-      WheelPlacement<double> placement;
       const double yaw = 0.05 * uniform(generator), roll = 0.06 * uniform(generator);
-      placement.position_rail = Vector3<double>(0.01, 0.003, 0.43);
-      placement.sin_yaw = std::sin(yaw);
-      placement.cos_yaw = std::cos(yaw);
-      placement.tan_yaw = placement.sin_yaw / placement.cos_yaw;
-      placement.sin_roll = std::sin(roll);
-      placement.cos_roll = std::cos(roll);
+      auto placement = placed(0.003, 0.43, yaw, roll);
+      placement.position_rail.x() = 0.01;
       const Equations equations(wheel, rail, placement, form);
       const Equations::Vector x(0.1 * uniform(generator), 0.03 * uniform(generator),
                                 0.1 * uniform(generator), 0.045 * uniform(generator));
@@ -395,14 +392,9 @@ TEST_CASE("minimum_distance: Newton's step solves the linear system", "[contact]
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (const auto form : forms) {
     for (int i = 0; i < 200; ++i) {
-      WheelPlacement<double> placement;
       const double yaw = 0.05 * uniform(generator), roll = 0.06 * uniform(generator);
-      placement.position_rail = Vector3<double>(0.01, 0.003, 0.43);
-      placement.sin_yaw = std::sin(yaw);
-      placement.cos_yaw = std::cos(yaw);
-      placement.tan_yaw = placement.sin_yaw / placement.cos_yaw;
-      placement.sin_roll = std::sin(roll);
-      placement.cos_roll = std::cos(roll);
+      auto placement = placed(0.003, 0.43, yaw, roll);
+      placement.position_rail.x() = 0.01;
       const detail::MinimumDistanceEquations equations(wheel, rail, placement, form);
       const Vector4<double> x(0.1 * uniform(generator), 0.03 * uniform(generator),
                               0.1 * uniform(generator), 0.045 * uniform(generator));

@@ -140,7 +140,7 @@ class StripWalk {
     const auto& shape = wheel_.strips().nodes()[static_cast<std::size_t>(index)].shape;
     const Judgement<T> judgement = remember_if_known(left, right, shape, bounds);
     if (judgement.verdict != Verdict::open) return;
-    if (judgement.is_bounded && can_prove_ && memory_->has_room()) {
+    if (judgement.is_bounded) {
       const int piece = left.strip.piece;
       const T lower = left.strip.wheel_lateral, upper = right.strip.wheel_lateral;
       const Indexed middle{strips_.at(piece, T(lower + (upper - lower) / T(2))), -1};

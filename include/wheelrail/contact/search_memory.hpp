@@ -52,7 +52,7 @@ class SearchMemory {
                                   detail::magnitude(wheel.profile().upper())) +
                           wheel.strips().greatest_radius()},
         skin_(skin),
-        parts_(2 * wheel.strips().strips().size()) {
+        parts_(2 * wheel.strips().strips().size()) {  // two for each leaf at most
     detail::require_positive("search memory: skin", skin, "[m]");
     detail::require(T(100) * skin <= motion_.reach, "search memory: skin", skin,
                     "at most a hundredth of the wheel's greatest radius and width [m]");
@@ -67,8 +67,6 @@ class SearchMemory {
   [[nodiscard]] const detail::WheelMotion<T>& motion() const { return motion_; }
   /// Those near the rail, from the flange to the field side.
   [[nodiscard]] std::span<detail::RememberedPart<T>> parts() { return {parts_.data(), count_}; }
-  /// Whether the wheel may be divided into more parts than it has strips.
-  [[nodiscard]] bool has_room() const { return 2 * count_ < parts_.size(); }
   /// @pre fewer parts than twice the wheel's strips
   void add(const detail::RememberedPart<T>& part) { parts_[count_++] = part; }
   /// Keeps the first `count` ones. @pre count <= parts().size()

@@ -76,7 +76,7 @@ class NearBlocks {
   // By the last tangent that was looked at, or by the one nearest to the node's centre.
   [[nodiscard]] bool is_far(const StripNode<T>& node, const T& clearance) {
     // What bulges that much is rarely above anything; its parts may be.
-    if (!rail_.is_convex() || constant<T>(0.002L) < node.rise) return false;
+    if (!rail_.is_convex() || wheel_.nominal_radius() / T(250) < node.rise) return false;
     if (0 < feet_ && is_above(plane_, node, clearance)) return true;
     if (node.is_block) return false;  // the strips at its ends tell more
     ++feet_;
