@@ -19,20 +19,42 @@ double least_slack(const P& profile, const StripTree<double>& tree, int samples)
     const double upper = tree.strips()[static_cast<std::size_t>(node.last)].lateral;
     for (int i = 0; i < samples; ++i) {
       const double u = lower + (upper - lower) * (static_cast<double>(random()) / 4294967296.0);
-      const double bound = node.point.value + node.point.slope * (u - node.centre) + node.rise;
-      least = std::min(least, bound - profile.evaluate(u).value);
+      const double bound = node.greatest_radius + node.slope * (u - node.centre);
+      least = std::min(least, bound - 0.43 - profile.evaluate(u).value);
       CHECK(std::abs(u - node.centre) <= node.half_width * (1 + 1e-12));
-      const auto point = profile.evaluate(u);
-      const auto& shape = node.shape;
-      const double slack = 1e-9 * shape.second;
-      CHECK(point.second_derivative <= shape.greatest_second + slack);
-      CHECK(point.second_derivative >= shape.least_second - slack);
-      CHECK(std::abs(point.second_derivative) <= shape.second + slack);
-      CHECK(std::abs(point.slope) <= shape.steepest * (1 + 1e-9));
-      CHECK(std::abs(point.slope) >= shape.flattest - 1e-9);
     }
   }
   return least;
+}
+
+// What the tree promises between two strips of each piece, at random points there.
+template <Profile P>
+void check_shapes(const P& profile, const StripTree<double>& tree, int samples) {
+  std::mt19937 random(2);
+  const auto& strips = tree.strips();
+  const auto strip = [&](int i) { return strips[static_cast<std::size_t>(i)]; };
+  const int count = static_cast<int>(strips.size());
+  int checked = 0;
+  for (int first = 0; first + 1 < count; ++first) {
+    for (const int last : {first + 1, first + 2, first + 9}) {
+      if (count <= last || strip(first).piece != strip(last).piece) continue;
+      const auto shape = tree.shape_between(first, last);
+      const double slack = 1e-9 * shape.second;
+      for (int i = 0; i < samples; ++i) {
+        const double share = static_cast<double>(random()) / 4294967296.0;
+        const double u =
+            strip(first).lateral + (strip(last).lateral - strip(first).lateral) * share;
+        const auto point = profile.evaluate(strip(first).piece, u);
+        CHECK(point.second_derivative <= shape.greatest_second + slack);
+        CHECK(point.second_derivative >= shape.least_second - slack);
+        CHECK(std::abs(point.second_derivative) <= shape.second + slack);
+        CHECK(std::abs(point.slope) <= shape.steepest * (1 + 1e-9));
+        CHECK(std::abs(point.slope) >= shape.flattest - 1e-9);
+        ++checked;
+      }
+    }
+  }
+  CHECK(checked > 100 * samples);
 }
 
 }  // namespace
@@ -63,14 +85,17 @@ TEST_CASE("StripTree: preorder visits each leaf once and skips what it says", "[
   const auto& nodes = tree.nodes();
   int reached = -1;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    CHECK(nodes[i].skip > static_cast<int>(i));
-    if (nodes[i].skip != static_cast<int>(i) + 1) continue;
-    CHECK(nodes[i].last == nodes[i].first + 1);
+    CHECK(nodes[i].skip > i);
+    CHECK((nodes[i].last == nodes[i].first + 1) == (nodes[i].skip == i + 1));
+    CHECK(nodes[i].is_in_one_piece ==
+          (tree.strips()[static_cast<std::size_t>(nodes[i].first)].piece ==
+           tree.strips()[static_cast<std::size_t>(nodes[i].last)].piece));
+    if (nodes[i].skip != i + 1) continue;
     CHECK((nodes[i].first == reached || nodes[i].first == reached + 1));
     reached = nodes[i].last;
   }
   CHECK(reached == static_cast<int>(tree.strips().size()) - 1);
-  CHECK(nodes.front().skip == static_cast<int>(nodes.size()));
+  CHECK(nodes.front().skip == nodes.size());
 }
 
 TEST_CASE("StripTree: no profile rises above its nodes' bounds", "[surface][random]") {
@@ -82,24 +107,17 @@ TEST_CASE("StripTree: no profile rises above its nodes' bounds", "[surface][rand
   }
 }
 
-TEST_CASE("StripTree: blocks cover every interval once, each in one piece", "[surface]") {
+TEST_CASE("StripTree: the shape between two strips holds there", "[surface][random]") {
+  const auto real = s1002<double>();
+  const ConvexModification convex(real);
+  check_shapes(real, StripTree<double>(real, 0.43, 0.5e-3), 10);
+  check_shapes(convex, StripTree<double>(convex, 0.43, 0.5e-3), 10);
+}
+
+TEST_CASE("StripTree: no strip is larger than the greatest radius", "[surface]") {
   const auto profile = s1002<double>();
   const StripTree<double> tree(profile, 0.43, 0.5e-3);
   CHECK(tree.is_proved());
-  int reached = -1, blocks = 0;
-  for (const auto& node : tree.nodes()) {
-    if (!node.is_block) continue;
-    ++blocks;
-    CHECK((node.first == reached || node.first == reached + 1));
-    reached = node.last;
-    const auto& strips = tree.strips();
-    CHECK(strips[static_cast<std::size_t>(node.first)].piece ==
-          strips[static_cast<std::size_t>(node.last)].piece);
-    CHECK(node.last - node.first <= StripTree<double>::block_strips);
-  }
-  CHECK(reached == static_cast<int>(tree.strips().size()) - 1);
-  CHECK(blocks == tree.block_count());
-  CHECK(blocks > profile.piece_count());
   double greatest = 0;
   for (int i = 0; i <= 20000; ++i) {
     const double u = profile.lower() + (profile.upper() - profile.lower()) * i / 20000;

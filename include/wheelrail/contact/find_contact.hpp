@@ -8,7 +8,7 @@
 /// What is proved (ContactResult::is_proved), and from what, stands in detail/penetration_bounds.hpp.
 
 #include <wheelrail/contact/detail/locus_strips.hpp>
-#include <wheelrail/contact/detail/near_blocks.hpp>
+#include <wheelrail/contact/detail/near_runs.hpp>
 #include <wheelrail/contact/detail/penetration_bounds.hpp>
 #include <wheelrail/contact/patch.hpp>
 #include <wheelrail/contact/search_memory.hpp>
@@ -63,8 +63,10 @@ class StripWalk {
   [[nodiscard]] ContactResult<T> run() {
     result_.is_proved = can_prove_;
     if (memory_ == nullptr || !can_prove_) {
-      const int feet = near_.for_each(T(0), [this](int block) { visit_block(block); });
-      result_.evaluations += feet;
+      near_.for_each(T(0), [this](int first, int last) {
+        const Strip left = strips_.edge(first);
+        visit_run(first, last, left, strips_.edge(last));
+      });
     } else {
       const T& threshold = options_.penetration_threshold;
       if (!memory_->covers(rail_, placement_, threshold)) {
@@ -82,21 +84,6 @@ class StripWalk {
  private:
   using Strip = LocusStrip<T>;
 
-  // Strips at both ends of a block, then what lies between them.
-  void visit_block(int index) {
-    const StripNode<T>& node = wheel_.strips().nodes()[static_cast<std::size_t>(index)];
-    const Strip left = strips_.edge(node.first);
-    if (lies_above(left, node)) return;
-    const Strip right = strips_.edge(node.last);
-    if (lies_above(right, node)) return;
-    judge_node(index, left, right);
-  }
-
-  [[nodiscard]] bool lies_above(const Strip& strip, const StripNode<T>& node,
-                                const T& clearance = T(0)) const {
-    return strip.exists && near_.is_above(strip.tangent, node, clearance);
-  }
-
   // A strip and its index in the wheel, -1 where it is none of the wheel's.
   struct Indexed {
     Strip strip;
@@ -108,38 +95,32 @@ class StripWalk {
     const auto& motion = memory_->motion();
     const PenetrationBounds<R> bounds(rail_, wheel_.strips().greatest_radius(), placement_,
                                       T(options_.penetration_threshold - margin_), motion);
-    const int feet = near_.for_each(motion.distance, [&](int block) {
-      const StripNode<T>& node = wheel_.strips().nodes()[static_cast<std::size_t>(block)];
-      const Strip left = strips_.edge(node.first);
-      remember_node(block, left, strips_.edge(node.last), bounds);
+    near_.for_each(motion.distance, [&](int first, int last) {
+      const Strip left = strips_.edge(first);
+      remember_run(first, last, left, strips_.edge(last), bounds);
     });
     leave_outside();
-    result_.evaluations += feet;
   }
 
-  void remember_node(int index, const Strip& left, const Strip& right,
-                     const PenetrationBounds<R>& bounds) {
-    const auto& motion = memory_->motion();
-    const auto& nodes = wheel_.strips().nodes();
-    const StripNode<T>& node = nodes[static_cast<std::size_t>(index)];
-    if (lies_above(left, node, motion.distance) || lies_above(right, node, motion.distance)) return;
-    const Indexed first{left, node.first}, last{right, node.last};
-    if (node.skip == index + 1) {
-      remember_leaf(index, first, last, bounds);
-    } else if (remember_if_known(first, last, node.shape, bounds).verdict == Verdict::open) {
-      const StripNode<T>& child = nodes[static_cast<std::size_t>(index + 1)];
-      const Strip middle = strips_.of_wheel(child.last);
-      remember_node(index + 1, left, middle, bounds);
-      remember_node(child.skip, middle, right, bounds);
+  void remember_run(int first, int last, const Strip& left, const Strip& right,
+                    const PenetrationBounds<R>& bounds) {
+    const ShapeBounds<T> shape = wheel_.strips().shape_between(first, last);
+    const Judgement<T> judgement = remember_if_known({left, first}, {right, last}, shape, bounds);
+    if (judgement.verdict != Verdict::open) return;
+    if (last == first + 1) {
+      if (is_above(first, left, right, memory_->motion().distance)) return;
+      remember_leaf({left, first}, {right, last}, judgement, bounds);
+    } else {
+      const int between = first + (last - first) / 2;
+      const Strip middle = strips_.of_wheel(between);
+      remember_run(first, between, left, middle, bounds);
+      remember_run(between, last, middle, right, bounds);
     }
   }
 
-  // A leaf with the strips at its ends: divided once where that helps.
-  void remember_leaf(int index, const Indexed& left, const Indexed& right,
+  // What lies between two neighbouring strips, of which nothing is known: divided where that helps.
+  void remember_leaf(const Indexed& left, const Indexed& right, const Judgement<T>& judgement,
                      const PenetrationBounds<R>& bounds) {
-    const auto& shape = wheel_.strips().nodes()[static_cast<std::size_t>(index)].shape;
-    const Judgement<T> judgement = remember_if_known(left, right, shape, bounds);
-    if (judgement.verdict != Verdict::open) return;
     if (judgement.is_bounded) {
       const int piece = left.strip.piece;
       const T lower = left.strip.wheel_lateral, upper = right.strip.wheel_lateral;
@@ -153,7 +134,7 @@ class StripWalk {
       if (is_known(left, middle) && is_known(middle, right)) return;
       memory_->truncate(known);
     }
-    remember({left.strip, right.strip, left.index, right.index, false, index});
+    remember({left.strip, right.strip, left.index, right.index, false});
   }
 
   // Returns the judgement on what lies between two strips, as it will hold.
@@ -232,8 +213,7 @@ class StripWalk {
     if (part.is_simple) {
       visit_extremum(left, right, part.extremum);
     } else {
-      const auto& leaf = wheel_.strips().nodes()[static_cast<std::size_t>(part.leaf)];
-      if (!lies_above(left, leaf) && !lies_above(right, leaf)) visit_part(left, right, 0);
+      if (!is_above(part.left_index, left, right, T(0))) visit_part(left, right, 0);
     }
     visit(right);
   }
@@ -251,30 +231,28 @@ class StripWalk {
                : strips_.at(remembered.piece, remembered.wheel_lateral);
   }
 
-  // A node inside a block with the strips at its ends.
-  void visit_node(int index, const Strip& left, const Strip& right) {
-    const auto& nodes = wheel_.strips().nodes();
-    const StripNode<T>& node = nodes[static_cast<std::size_t>(index)];
-    if (lies_above(left, node) || lies_above(right, node)) return;
-    judge_node(index, left, right);
+  // Whether what lies between two neighbouring strips is above a tangent at one of their feet.
+  [[nodiscard]] bool is_above(int first, const Strip& left, const Strip& right,
+                              const T& clearance) const {
+    return near_.is_above(left, first, clearance) || near_.is_above(right, first, clearance);
   }
 
-  // One that no tangent excludes.
-  void judge_node(int index, const Strip& left, const Strip& right) {
-    const auto& nodes = wheel_.strips().nodes();
-    const StripNode<T>& node = nodes[static_cast<std::size_t>(index)];
-    const Judgement<T> judgement = bounds_.judge(left, right, node.shape);
+  // The strips from `first` to `last`, of one piece, with those at both ends.
+  void visit_run(int first, int last, const Strip& left, const Strip& right) {
+    const Judgement<T> judgement =
+        bounds_.judge(left, right, wheel_.strips().shape_between(first, last));
     if (judgement.verdict == Verdict::excluded) return;
-    const bool is_leaf = node.skip == index + 1;
-    if (judgement.verdict == Verdict::open && !is_leaf) {
-      const StripNode<T>& child = nodes[static_cast<std::size_t>(index + 1)];
-      const Strip middle = strips_.of_wheel(child.last);
-      visit_node(index + 1, left, middle);
-      visit_node(child.skip, middle, right);
+    const bool is_open = judgement.verdict == Verdict::open;
+    if (is_open && last == first + 1 && is_above(first, left, right, T(0))) return;
+    if (is_open && first + 1 < last) {
+      const int between = first + (last - first) / 2;
+      const Strip middle = strips_.of_wheel(between);
+      visit_run(first, between, left, middle);
+      visit_run(between, last, middle, right);
       return;
     }
-    enter(node.first, left);
-    reached_ = node.last;
+    enter(first, left);
+    reached_ = last;
     if (judgement.verdict == Verdict::simple) {
       visit_extremum(left, right, extremum_guess(left, right));
     } else {
@@ -503,7 +481,7 @@ class StripWalk {
   SearchMemory<T>* memory_;  // null: nothing is remembered
   T margin_;                 // rounding of the bound and of the penetration [m]
   LocusStrips<P, R> strips_;
-  NearBlocks<P, R> near_;
+  NearRuns<P, R> near_;
   PenetrationBounds<R> bounds_;
   T grid_{};  // a last Newton step this long leaves an error of rounding [m]
   ContactResult<T> result_;
@@ -529,7 +507,14 @@ template <Profile P, Profile R>
     result.status = SearchStatus::not_finite;
     return result;
   }
-  return StripWalk<P, R>(wheel, rail, placement, options, memory).run();
+  ContactResult<T> result = StripWalk<P, R>(wheel, rail, placement, options, memory).run();
+  if (memory != nullptr && !result.is_proved) {
+    // At this very placement more may be excluded than near it.
+    const int evaluations = result.evaluations;
+    result = StripWalk<P, R>(wheel, rail, placement, options, nullptr).run();
+    result.evaluations += evaluations;
+  }
+  return result;
 }
 
 }  // namespace detail

@@ -70,8 +70,7 @@ struct ContactResult {
   static constexpr std::size_t maximum_patches = 8;
   FixedList<Patch<T>, maximum_patches> patches;
   SearchStatus status = SearchStatus::complete;
-  /// Strips and other points of the wheel whose feet on the rail were looked for, and Newton systems
-  /// solved [-]
+  /// Strips of the wheel whose feet on the rail were looked for, and Newton systems solved [-]
   int evaluations = 0;
   /// No zone deeper than the depth tolerance that the search was given is missing: see
   /// find_contact.hpp for what is proved, and from what.

@@ -26,10 +26,9 @@ template <Real T>
 struct RememberedPart {
   LocusStrip<T> left, right;  // at its ends; not exact: their signs hold, do not look at them again
   int left_index = -1, right_index = -1;  // among the wheel's strips, if they are
-  // The penetration has one extremum at most; otherwise nothing is known, and this is a leaf:
+  // The penetration has one extremum at most; otherwise nothing is known.
   bool is_simple = false;
-  int leaf = -1;  // this node of the strip tree
-  T extremum{};   // where it was last
+  T extremum{};  // where it was last
   // What lies to the left: nothing near the rail, another piece, or a part with the same strip.
   enum class Joins { apart, joint, same } joins = Joins::apart;
 };

@@ -12,6 +12,7 @@
 #include <wheelrail/core/side.hpp>
 #include <wheelrail/core/vector.hpp>
 #include <wheelrail/profile/inspection.hpp>
+#include <wheelrail/surface/supporting_lines.hpp>
 
 namespace wheelrail {
 
@@ -119,6 +120,7 @@ class Rail {
       nowhere_concave = nowhere_concave && !(of.least < T(0));
     }
     is_proved_convex_ = nowhere_concave && detail::is_convex(profile_, corner);
+    if (is_convex_) supporting_lines_ = SupportingLines<T>(profile_);
   }
 
   [[nodiscard]] const P& profile() const { return profile_; }
@@ -129,6 +131,8 @@ class Rail {
   /// Whether it is convex for certain: the profile's derivative bounds say so, and its corners are
   /// concave by rounding at most.
   [[nodiscard]] bool is_proved_convex() const { return is_proved_convex_; }
+  /// Tangents of the profile where it is convex; otherwise none.
+  [[nodiscard]] const SupportingLines<T>& supporting_lines() const { return supporting_lines_; }
   /// Differs for rails of different profiles, but for chance [m].
   [[nodiscard]] const T& checksum() const { return checksum_; }
 
@@ -199,6 +203,7 @@ class Rail {
   bool is_proved_convex_ = false;
   T checksum_ = T(0);
   std::vector<PieceCurvature> curvatures_;
+  SupportingLines<T> supporting_lines_;
 };
 
 }  // namespace wheelrail

@@ -27,6 +27,16 @@ struct ShapeBounds {
   T flattest{};         ///< <= |F'|, not less than 0 [-]
   T second{};           ///< >= |F''| [1/m]
   T third{};            ///< >= |F'''| [1/m2]
+
+  /// Also holds where `other` does then.
+  void widen(const ShapeBounds& other) {
+    least_second = detail::min(least_second, other.least_second);
+    greatest_second = detail::max(greatest_second, other.greatest_second);
+    steepest = detail::max(steepest, other.steepest);
+    flattest = detail::min(flattest, other.flattest);
+    second = detail::max(second, other.second);
+    third = detail::max(third, other.third);
+  }
 };
 
 /// The bounds over [lower, upper] of one piece: proved where the profile has derivative bounds;
@@ -60,19 +70,17 @@ template <Profile P>
 }
 
 /// A node covers the strips from `first` to `last`. Invariant: for every lateral u of it
-/// F(u) <= F(centre) + F'(centre) (u - centre) + rise, |u - centre| <= half_width.
+/// |u - centre| <= half_width and R(u) <= greatest_radius + slope (u - centre).
 template <Real T>
 struct StripNode {
-  T centre{};             ///< lateral coordinate of the strip in its middle [m]
-  T half_width{};         ///< [m]
-  ProfilePoint<T> point;  ///< at the centre
-  T rise{};               ///< [m]
-  ShapeBounds<T> shape;
+  T centre{};           ///< lateral coordinate of the strip in its middle [m]
+  T half_width{};       ///< [m]
+  T slope{};            ///< of the profile at the centre [-]
+  T greatest_radius{};  ///< the radius there, and what the profile rises above its tangent [m]
   int first = 0;
-  int last = 0;  ///< first + 1: a leaf, the interval between two strips of one piece
-  int skip = 0;  ///< the node after this one's subtree; the first child is the next node
-  /// A block: at most StripTree::block_strips intervals of one piece; its parent, if any, is none.
-  bool is_block = false;
+  int last = 0;          ///< first + 1: a leaf, the interval between two strips
+  std::size_t skip = 0;  ///< the node after this one's subtree; the first child is the next
+  bool is_in_one_piece = false;
 };
 
 /// The strips of a profile in order, and its nodes in preorder. Nodes over several pieces are split
@@ -80,8 +88,6 @@ struct StripNode {
 template <Real T>
 class StripTree {
  public:
-  static constexpr int block_strips = 8;
-
   /// @param spacing strips are at most this far apart [m].
   /// @throws std::invalid_argument unless spacing is finite and > 0 and makes at most 100,000
   /// strips.
@@ -91,7 +97,7 @@ class StripTree {
     detail::require_positive("wheel: strip spacing", spacing, "[m]");
     detail::require((profile.upper() - profile.lower()) / spacing < T(100000),
                     "wheel: strip spacing", spacing, "at least 1e-5 of the profile's width [m]");
-    std::vector<Leaf> leaves;
+    std::vector<Interval> intervals;
     for (int piece = 0; piece < profile.piece_count(); ++piece) {
       const T lower = profile.joint(piece), upper = profile.joint(piece + 1);
       int count = 1;
@@ -99,65 +105,76 @@ class StripTree {
       for (int i = 0; i <= count; ++i) {
         const T u = i == count ? upper : T(lower + (upper - lower) * T(i) / T(count));
         strips_.push_back({u, profile.evaluate(piece, u), piece});
-        if (i > 0) leaves.push_back(leaf_before(profile, piece));
+        if (i > 0) intervals.push_back(interval_before(profile, piece));
+        shapes_.push_back(i > 0 ? intervals.back().shape : ShapeBounds<T>());
       }
     }
-    for (const Leaf& leaf : leaves) {
-      for (const Strip<T>& strip : {at(leaf.first), leaf.middle, at(leaf.first + 1)}) {
+    for (const Interval& interval : intervals) {
+      for (const Strip<T>& strip : {at(interval.first), interval.middle, at(interval.first + 1)}) {
         greatest_radius_ =
-            detail::max(greatest_radius_, T(nominal_radius + strip.point.value + leaf.bulge));
+            detail::max(greatest_radius_, T(nominal_radius + strip.point.value + interval.bulge));
       }
     }
-    build(leaves, 0, static_cast<int>(leaves.size()), profile, true);
+    leaves_.resize(strips_.size());
+    build(intervals, 0, static_cast<int>(intervals.size()), profile, nominal_radius);
   }
 
   /// Not less than the radius of any strip [m].
   [[nodiscard]] const T& greatest_radius() const { return greatest_radius_; }
   [[nodiscard]] const std::vector<Strip<T>>& strips() const { return strips_; }
   [[nodiscard]] const std::vector<StripNode<T>>& nodes() const { return nodes_; }
-  [[nodiscard]] int block_count() const { return block_count_; }
+  /// The interval between a strip and the next one of its piece.
+  [[nodiscard]] const StripNode<T>& leaf(int first) const {
+    return nodes_[leaves_[static_cast<std::size_t>(first)]];
+  }
+  /// What the profile keeps within between two strips of one piece. @pre first < last
+  [[nodiscard]] ShapeBounds<T> shape_between(int first, int last) const {
+    ShapeBounds<T> shape = shapes_[static_cast<std::size_t>(first + 1)];
+    for (int i = first + 2; i <= last; ++i) shape.widen(shapes_[static_cast<std::size_t>(i)]);
+    return shape;
+  }
   /// Whether all bounds are proved: the profile has derivative bounds.
   [[nodiscard]] bool is_proved() const { return is_proved_; }
 
  private:
   // The interval between two strips of one piece.
-  struct Leaf {
+  struct Interval {
     int first = 0;
     Strip<T> middle;
     ShapeBounds<T> shape;
     T bulge{};  // F is at most this far above its chords to the middle [m]
   };
 
-  // The leaf between the last two strips.
+  // The interval between the last two strips.
   template <Profile P>
-  [[nodiscard]] Leaf leaf_before(const P& profile, int piece) const {
-    Leaf leaf;
-    leaf.first = static_cast<int>(strips_.size()) - 2;
+  [[nodiscard]] Interval interval_before(const P& profile, int piece) const {
+    Interval interval;
+    interval.first = static_cast<int>(strips_.size()) - 2;
     const T lower = strips_[strips_.size() - 2].lateral, upper = strips_.back().lateral;
     const T u = lower + (upper - lower) / T(2);
-    leaf.middle = {u, profile.evaluate(piece, u), piece};
-    leaf.shape = shape_bounds(profile, piece, lower, upper);
+    interval.middle = {u, profile.evaluate(piece, u), piece};
+    interval.shape = shape_bounds(profile, piece, lower, upper);
     // Where F'' < 0 it rises above its chords, by at most -F'' width^2 / 32 each half, and stays under
     // its tangent in the middle.
-    leaf.bulge = leaf.shape.second * detail::square(T(upper - lower)) / T(32);
-    if (leaf.shape.greatest_second < T(0)) {
-      const ProfilePoint<T>& middle = leaf.middle.point;
+    interval.bulge = interval.shape.second * detail::square(T(upper - lower)) / T(32);
+    if (interval.shape.greatest_second < T(0)) {
+      const ProfilePoint<T>& middle = interval.middle.point;
       const T reach = middle.slope * (upper - lower) / T(2);
       const T under_tangent =
           detail::max(T(middle.value - reach - strips_[strips_.size() - 2].point.value),
                       T(middle.value + reach - strips_.back().point.value));
-      leaf.bulge = detail::min(leaf.bulge, under_tangent);
+      interval.bulge = detail::min(interval.bulge, under_tangent);
     }
-    return leaf;
+    return interval;
   }
 
-  // Where to part the leaves from begin to end: at the joint nearest to the middle, or there.
-  [[nodiscard]] int split(const std::vector<Leaf>& leaves, int begin, int end) const {
+  // Where to part the intervals from begin to end: at the joint nearest to the middle, or there.
+  [[nodiscard]] int split(const std::vector<Interval>& intervals, int begin, int end) const {
     const int middle = begin + (end - begin) / 2;
     int best = -1;
     for (int i = begin + 1; i < end; ++i) {
-      const bool is_joint = leaves[static_cast<std::size_t>(i)].middle.piece !=
-                            leaves[static_cast<std::size_t>(i - 1)].middle.piece;
+      const bool is_joint = intervals[static_cast<std::size_t>(i)].middle.piece !=
+                            intervals[static_cast<std::size_t>(i - 1)].middle.piece;
       const auto distance = [&](int at) { return at < middle ? middle - at : at - middle; };
       if (is_joint && (best < 0 || distance(i) < distance(best))) best = i;
     }
@@ -165,44 +182,39 @@ class StripTree {
   }
 
   template <Profile P>
-  void build(const std::vector<Leaf>& leaves, int begin, int end, const P& profile,
-             bool above_blocks) {
+  void build(const std::vector<Interval>& intervals, int begin, int end, const P& profile,
+             const T& nominal_radius) {
     const std::size_t self = nodes_.size();
     nodes_.emplace_back();
-    const Leaf& front = leaves[static_cast<std::size_t>(begin)];
-    const Leaf& back = leaves[static_cast<std::size_t>(end - 1)];
+    const Interval& front = intervals[static_cast<std::size_t>(begin)];
+    const Interval& back = intervals[static_cast<std::size_t>(end - 1)];
     StripNode<T> node;
     node.first = front.first;
     node.last = back.first + 1;
-    node.is_block =
-        above_blocks && front.middle.piece == back.middle.piece && end - begin <= block_strips;
-    if (node.is_block) ++block_count_;
     const T lower = at(node.first).lateral, upper = at(node.last).lateral;
     node.centre = lower + (upper - lower) / T(2);
     node.half_width = (upper - lower) / T(2);
-    node.point = end - begin == 1 ? front.middle.point : profile.evaluate(node.centre);
-    node.shape = front.shape;
+    const ProfilePoint<T> middle =
+        end - begin == 1 ? front.middle.point : profile.evaluate(node.centre);
+    node.slope = middle.slope;
+    node.is_in_one_piece = front.middle.piece == back.middle.piece;
+    T rise = T(0);
     for (int i = begin; i < end; ++i) {
-      const Leaf& leaf = leaves[static_cast<std::size_t>(i)];
-      for (const Strip<T>& strip : {at(leaf.first), leaf.middle, at(leaf.first + 1)}) {
-        node.rise = detail::max(node.rise,
-                                T(strip.point.value - node.point.value -
-                                  node.point.slope * (strip.lateral - node.centre) + leaf.bulge));
+      const Interval& interval = intervals[static_cast<std::size_t>(i)];
+      for (const Strip<T>& strip : {at(interval.first), interval.middle, at(interval.first + 1)}) {
+        rise = detail::max(rise, T(strip.point.value - middle.value -
+                                   middle.slope * (strip.lateral - node.centre) + interval.bulge));
       }
-      node.shape.least_second = detail::min(node.shape.least_second, leaf.shape.least_second);
-      node.shape.greatest_second =
-          detail::max(node.shape.greatest_second, leaf.shape.greatest_second);
-      node.shape.steepest = detail::max(node.shape.steepest, leaf.shape.steepest);
-      node.shape.flattest = detail::min(node.shape.flattest, leaf.shape.flattest);
-      node.shape.second = detail::max(node.shape.second, leaf.shape.second);
-      node.shape.third = detail::max(node.shape.third, leaf.shape.third);
     }
-    if (end - begin > 1) {
-      const int middle = split(leaves, begin, end);
-      build(leaves, begin, middle, profile, above_blocks && !node.is_block);
-      build(leaves, middle, end, profile, above_blocks && !node.is_block);
+    node.greatest_radius = nominal_radius + middle.value + rise;
+    if (end - begin == 1) {
+      leaves_[static_cast<std::size_t>(node.first)] = self;
+    } else {
+      const int at = split(intervals, begin, end);
+      build(intervals, begin, at, profile, nominal_radius);
+      build(intervals, at, end, profile, nominal_radius);
     }
-    node.skip = static_cast<int>(nodes_.size());
+    node.skip = nodes_.size();
     nodes_[self] = node;
   }
 
@@ -212,8 +224,9 @@ class StripTree {
 
   T greatest_radius_;
   std::vector<Strip<T>> strips_;
+  std::vector<ShapeBounds<T>> shapes_;  // of the interval before each strip
   std::vector<StripNode<T>> nodes_;
-  int block_count_ = 0;
+  std::vector<std::size_t> leaves_;  // the node of the interval after each strip
   bool is_proved_;
 };
 

@@ -6,25 +6,18 @@
 
 namespace wheelrail::detail {
 
-// A line in the rail's cross-section that the whole rail lies under: normal . point <= height.
-template <Real T>
-struct RailTangent {
-  Vector2<T> normal_rail{T(0), T(0)};  // outward: (lateral, up); zero: none
-  T height{};                          // [m]
-};
-
 // A strip with its penetration and d penetration / d wheel_lateral.
 template <Real T>
 struct LocusStrip {
-  T wheel_lateral{};       // [m]
-  T rail_lateral{};        // of the foot [m]
-  T penetration{};         // [m]
-  T slope{};               // [-]
-  T slope_rate{};          // d slope / d wheel_lateral; as find_contact.hpp has it [1/m]
-  RailTangent<T> tangent;  // of the rail, at the foot
-  int piece = -1;          // of the wheel's profile
-  bool exists = false;     // false where the strip has no locus point, or the rail no foot for it
-  bool is_exact = true;    // false: the wheel has moved since, but the slope kept its sign
+  T wheel_lateral{};  // [m]
+  T rail_lateral{};   // of the foot [m]
+  T penetration{};    // [m]
+  T slope{};          // [-]
+  T slope_rate{};     // d slope / d wheel_lateral; as find_contact.hpp has it [1/m]
+  Vector2<T> normal_rail{T(0), T(0)};  // out of the rail at the foot: (lateral, up)
+  int piece = -1;                      // of the wheel's profile
+  bool exists = false;   // false where the strip has no locus point, or the rail no foot for it
+  bool is_exact = true;  // false: the wheel has moved since, but the slope kept its sign
   // Of one that is not exact: whether it penetrates.
   enum class Side { unknown, outside, inside } side = Side::unknown;
 
@@ -35,8 +28,8 @@ struct LocusStrip {
   [[nodiscard]] const T& greatest_slope() const { return slope; }
   [[nodiscard]] const T& least_foot() const { return rail_lateral; }
   [[nodiscard]] const T& greatest_foot() const { return rail_lateral; }
-  [[nodiscard]] const Vector2<T>& normal_at_least_foot() const { return tangent.normal_rail; }
-  [[nodiscard]] const Vector2<T>& normal_at_greatest_foot() const { return tangent.normal_rail; }
+  [[nodiscard]] const Vector2<T>& normal_at_least_foot() const { return normal_rail; }
+  [[nodiscard]] const Vector2<T>& normal_at_greatest_foot() const { return normal_rail; }
 };
 
 // What a strip keeps within while the wheel moves.

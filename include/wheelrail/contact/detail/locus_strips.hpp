@@ -50,7 +50,7 @@ class LocusStrips {
     const ClosestPoint<T> foot = rail_foot(rail_.profile(), locus.lateral, locus.up);
     const Vector2<T>& normal = foot.normal_rail;
     strip.rail_lateral = foot.lateral;
-    strip.tangent = {normal, foot.penetration + normal.x() * locus.lateral + normal.y() * locus.up};
+    strip.normal_rail = normal;
     strip.penetration = foot.penetration;
     // The foot moves along the surface, so only the locus' own motion across it counts.
     strip.slope = -(normal.x() * locus.lateral_rate + normal.y() * locus.up_rate);

@@ -6,7 +6,7 @@
 /// What is proved (ContactResult::is_proved), for a locally straight, convex rail and profiles with
 /// derivative bounds (HasDerivativeBounds), but for rounding:
 ///
-/// 1. A part above a tangent does not touch (near_blocks.hpp). The rail lies under its tangent plane
+/// 1. A part above a tangent does not touch (near_runs.hpp). The rail lies under its tangent plane
 ///    with the normal n at P; the strip at u, a circle of radius R(u) = R0 + F(u) about the axle's point
 ///    o + u a, is no deeper than g(u) = -n.(o - P) - u n.a + R(u) sqrt(1 - (n.a)^2) under it, whatever
 ///    the yaw, and StripTree bounds F over an interval.

@@ -1,0 +1,112 @@
+#pragma once
+// The part of a contact search that looks nowhere near the contacts: 1 of penetration_bounds.hpp, by
+// which whole branches of a wheel's strip tree are left out. May include: core, numerics, profile,
+// surface, contact/placement.
+
+#include <wheelrail/contact/detail/locus_strip.hpp>
+
+namespace wheelrail::detail {
+
+// The runs of strips that no line above the rail keeps off it.
+template <Profile P, Profile R>
+class NearRuns {
+ public:
+  using T = typename P::Scalar;
+
+  // threshold: of a zone's penetration, less what rounding makes of it [m].
+  NearRuns(const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<T>& placement,
+           const T& threshold)
+      : wheel_(wheel),
+        rail_(rail),
+        placement_(placement),
+        axle_lateral_(placement.cos_roll * placement.cos_yaw),
+        axle_up_(placement.sin_roll * placement.cos_yaw),
+        fold_(placement.sin_yaw * placement.tan_yaw),
+        threshold_(threshold) {}
+
+  // Calls visit(first, last), in order, for the longest runs of strips of one piece that are not
+  // proved to stay `clearance` [m] above a line.
+  template <class Visit>
+  void for_each(const T& clearance, Visit&& visit) const {
+    const auto& nodes = wheel_.strips().nodes();
+    const std::size_t end = nodes.size();
+    const T limit = threshold_ - clearance;
+    // Wider nodes have mostly parts that no line is below.
+    const int widest = rail_.is_convex() ? 16 : 0;
+    const int finest = placement_.tan_yaw * placement_.tan_yaw < constant<T>(1e-4L) ? 4 : 1;
+    Line line;                // the last one that was looked at
+    int first = 0, last = 0;  // of the run so far: empty
+    for (std::size_t index = 0; index < end;) {
+      const StripNode<T>& node = nodes[index];
+      bool is_above = line.greatest_depth(node) < limit;
+      if (!is_above && node.last - node.first <= widest) {
+        line = line_near(node);
+        is_above = line.greatest_depth(node) < limit;
+      }
+      if (is_above) {
+        index = node.skip;
+        continue;
+      }
+      const bool is_last = node.is_in_one_piece && node.last - node.first <= finest;
+      if (is_last) {
+        if (node.first != last) {
+          if (first != last) visit(first, last);
+          first = node.first;
+        }
+        last = node.last;
+      }
+      index = is_last ? node.skip : index + 1;
+    }
+    if (first != last) visit(first, last);
+  }
+
+  // Whether what lies between a strip and its neighbour is proved to stay `clearance` [m] above the
+  // rail's tangent at the foot of `strip`, one of the two. first: the left one's index.
+  [[nodiscard]] bool is_above(const LocusStrip<T>& strip, int first, const T& clearance) const {
+    if (!strip.exists || !rail_.is_convex()) return false;
+    const T foot_up = rail_.profile().evaluate(strip.rail_lateral).value;
+    const Line tangent = line({strip.normal_rail, strip.normal_rail.x() * strip.rail_lateral +
+                                                      strip.normal_rail.y() * foot_up});
+    return tangent.greatest_depth(wheel_.strips().leaf(first)) < threshold_ - clearance;
+  }
+
+ private:
+  // A line above the rail, with the normal n, at P; the bound g is taken of it.
+  struct Line {
+    T along_axle{};                  // n.a
+    T across_axle{};                 // sqrt(1 - (n.a)^2)
+    T height = T(1) / epsilon<T>();  // n.(P - o) [m]; at first above everything
+
+    [[nodiscard]] T greatest_depth(const StripNode<T>& node) const {
+      return height - node.centre * along_axle + node.greatest_radius * across_axle +
+             magnitude(T(node.slope * across_axle - along_axle)) * node.half_width;
+    }
+  };
+
+  // The one near the locus point of the node's middle strip, but for yaw to the fourth.
+  [[nodiscard]] Line line_near(const StripNode<T>& node) const {
+    const T y = node.centre - node.greatest_radius * node.slope * fold_;
+    const T z = -node.greatest_radius * (T(1) - node.slope * node.slope * fold_ / T(2));
+    return line(rail_.supporting_lines().near(
+        placement_.position_rail.y() + y * placement_.cos_roll - z * placement_.sin_roll,
+        placement_.position_rail.z() + y * placement_.sin_roll + z * placement_.cos_roll));
+  }
+
+  [[nodiscard]] Line line(const SupportingLine<T>& line) const {
+    using std::sqrt;
+    const T along = line.normal.x() * axle_lateral_ + line.normal.y() * axle_up_;
+    return {along, sqrt(T(T(1) - along * along)),
+            line.height - line.normal.x() * placement_.position_rail.y() -
+                line.normal.y() * placement_.position_rail.z()};
+  }
+
+  const Wheel<P>& wheel_;
+  const Rail<R>& rail_;
+  const WheelPlacement<T>& placement_;
+  T axle_lateral_;  // of the axle's direction, rail frame
+  T axle_up_;
+  T fold_;  // of the section plane by the yaw
+  T threshold_;
+};
+
+}  // namespace wheelrail::detail
