@@ -9,6 +9,7 @@
 #include <wheelrail/force/contact_force.hpp>
 #include <wheelrail/profile/convex_modification.hpp>
 #include <wheelrail/profile/inspection.hpp>
+#include <wheelrail/profile/profile_points.hpp>
 #include <wheelrail/profile/rail_head.hpp>
 #include <wheelrail/profile/s1002.hpp>
 #include <wheelrail/track/centre_line.hpp>
