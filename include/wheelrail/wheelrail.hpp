@@ -12,6 +12,7 @@
 #include <wheelrail/profile/profile_points.hpp>
 #include <wheelrail/profile/rail_head.hpp>
 #include <wheelrail/profile/s1002.hpp>
+#include <wheelrail/profile/spline_profile.hpp>
 #include <wheelrail/track/centre_line.hpp>
 #include <wheelrail/track/irregularities.hpp>
 #include <wheelrail/track/nodal_track.hpp>

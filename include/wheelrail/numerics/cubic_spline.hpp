@@ -58,6 +58,25 @@ class CubicSpline {
           {Value((T(3) / width(n - 2)) * (slope_end - chord(n - 2))), -half, T(0)});
   }
 
+  /// The natural spline whose second derivatives at the nodes are known, as a smoothing spline's are;
+  /// no system is solved, so nothing is lost to rounding.
+  /// @param second_derivatives one per node, finite. @pre They are those of the natural spline through
+  ///   the values: otherwise the slope jumps at the nodes.
+  [[nodiscard]] static CubicSpline natural_with(std::vector<T> nodes, std::vector<Value> values,
+                                                const std::vector<Value>& second_derivatives) {
+    CubicSpline spline(std::move(nodes), std::move(values), 3);
+    const std::size_t n = spline.nodes_.size();
+    detail::require(n == second_derivatives.size(),
+                    detail::joined({"cubic spline: there are ", std::to_string(n), " nodes and ",
+                                    std::to_string(second_derivatives.size()),
+                                    " second derivatives, but must be as many"}));
+    for (std::size_t i = 0; i < n; ++i) {
+      require_finite_value("second derivative", i, second_derivatives[i]);
+    }
+    spline.make_cubics(second_derivatives);
+    return spline;
+  }
+
   [[nodiscard]] const std::vector<T>& nodes() const { return nodes_; }
   [[nodiscard]] const T& lower() const { return nodes_.front(); }
   [[nodiscard]] const T& upper() const { return nodes_.back(); }
@@ -95,7 +114,7 @@ class CubicSpline {
       detail::require_finite(name, nodes_[i]);
       detail::require(i == 0 || nodes_[i - 1] < nodes_[i], name, nodes_[i],
                       "greater than the node before");
-      require_finite_value("value " + std::to_string(i), values_[i]);
+      require_finite_value("value", i, values_[i]);
     }
     // Equal spacing up to rounding: the interval then follows from a division.
     const T mean = (upper() - lower()) / T(static_cast<double>(n - 1));
@@ -105,6 +124,17 @@ class CubicSpline {
       is_uniform_ = is_uniform_ && T(1000) * detail::magnitude(off) <= mean;
     }
     inverse_spacing_ = T(1) / mean;
+  }
+
+  // The name is put together for the error only.
+  static void require_finite_value(const char* name, std::size_t i, const Value& value) {
+    bool finite = true;
+    if constexpr (Real<Value>) {
+      finite = is_finite(value);
+    } else {
+      for (Eigen::Index k = 0; k < value.size(); ++k) finite = finite && is_finite(value.coeff(k));
+    }
+    if (!finite) require_finite_value(detail::joined({name, " ", std::to_string(i)}), value);
   }
 
   static void require_finite_value(const std::string& name, const Value& value) {
@@ -153,6 +183,12 @@ class CubicSpline {
     for (std::size_t i = n - 2; i-- > 1;) m[i] -= upper_diagonal[i] * m[i + 1];
     m[0] = start.constant + start.first * m[1] + start.second * m[2];
     m[n - 1] = end.constant + end.first * m[n - 2] + end.second * m[n - 3];
+    make_cubics(m);
+  }
+
+  // From the second derivatives m at the nodes.
+  void make_cubics(const std::vector<Value>& m) {
+    const std::size_t n = nodes_.size();
     cubics_.reserve(n - 1);
     for (std::size_t i = 0; i + 1 < n; ++i) {
       const T h = width(i);
