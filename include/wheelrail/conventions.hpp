@@ -59,8 +59,9 @@
 /// | nominal_radius | R0 | r0 | r0 |
 /// | creepage.longitudinal, .lateral, .spin | xi_x, xi_y, phi | cksi, ceta, cphi (2) | |
 /// | HertzEllipse a, b | a, b | aa, bb | |
-/// | rolling_radius_difference, left less right (coming) | | | -Delta r (right less left) |
-/// | conicity (coming) | | | tan gamma_e |
+/// | rolling_radius_difference, left less right | | | -Delta r (right less left) |
+/// | lateral_shift, to the left | | -Y_ws | -y (to the right) |
+/// | conicity | | | tan gamma_e |
 ///
 /// (1) Up to origin and inclination: CONTACT counts y_r level with the track, from the highest
 /// point of the inclined head; rail_lateral runs along the profile's own axis from its origin.

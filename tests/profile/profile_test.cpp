@@ -90,6 +90,24 @@ TEST_CASE("piece_of: inside a piece that piece, at a joint the one on its field 
   CHECK(piece_of(circle, 0.4) == 1);
 }
 
+TEST_CASE("piece_of: among many pieces as among few", "[profile]") {
+  for (const int count : {15, 16, 17, 18, 33, 100, 1001}) {
+    std::vector<ProfilePiece<double>> pieces;
+    for (int i = 0; i < count; ++i) {
+      pieces.push_back(ProfilePiece<double>::line(i * i, (i + 1) * (i + 1), 0.0, 0.0, 1.0));
+    }
+    const PiecewiseProfile<double> profile(std::move(pieces));
+    bool all = piece_of(profile, -1.0) == 0 && piece_of(profile, profile.upper()) == count - 1;
+    for (int i = 0; i < count; ++i) {
+      all = all && piece_of(profile, profile.joint(i)) == i &&
+            piece_of(profile, profile.joint(i) + 0.5) == i &&
+            (i == 0 || piece_of(profile, std::nextafter(profile.joint(i), 0.0)) == i - 1);
+    }
+    CAPTURE(count);
+    CHECK(all);
+  }
+}
+
 TEST_CASE("piece_of: each of S1002's pieces begins at its joint", "[profile]") {
   const auto profile = s1002<double>();
   REQUIRE(profile.piece_count() == 8);

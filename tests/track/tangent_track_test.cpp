@@ -140,3 +140,25 @@ TEST_CASE("TangentTrack: a centred S1002 touches the UIC50 1:20 where it is know
   // (22.016219594, -14.749189020) mm, slope of section B's polynomial; inclination atan(1/20).
   CHECK(std::abs(real - 12.158207259e-3) < 2e-9);
 }
+
+TEST_CASE("TangentTrack: rails of their own on either side, each half the gauge from the middle",
+          "[track][symmetry]") {
+  const TrackDimensions<double> laid{1.435, 0.025};
+  const auto uic60 = rail_60e1<double>(), small = uic50<double>();
+  const Track mixed(uic60, small, laid), swapped(small, uic60, laid);
+  const Track of_uic60(uic60, laid), of_small(small, laid);
+  const Vector3<double> origin_track = Vector3<double>::Zero();
+  const auto same = [&](const Track& a, const Track& b, Side side) {
+    const auto one = a.nearest_frame(side, origin_track),
+               other = b.nearest_frame(side, origin_track);
+    return one.origin_track == other.origin_track && one.axes_track == other.axes_track;
+  };
+  CHECK(same(mixed, of_uic60, Side::left));
+  CHECK(same(mixed, of_small, Side::right));
+  CHECK(same(swapped, of_small, Side::left));
+  CHECK_FALSE(same(mixed, of_small, Side::left));
+  CHECK(mixed.rail(Side::left).checksum() == of_uic60.rail(Side::left).checksum());
+  CHECK(mixed.rail(Side::right).checksum() == of_small.rail(Side::left).checksum());
+  CHECK(mixed.head_distance() ==
+        Approx((of_uic60.head_distance() + of_small.head_distance()) / 2).epsilon(1e-15));
+}

@@ -84,11 +84,19 @@ template <Real T>
 }
 
 /// The piece that holds @p lateral; a joint belongs to the piece on its field side.
-/// @note A profile has few pieces: a linear search beats a binary one.
+/// @note Among few pieces, as standards have them, a linear search beats a binary one.
 template <class P>
 [[nodiscard]] int piece_of(const P& profile, const typename P::Scalar& lateral) {
-  int piece = 0;
-  const int last = profile.piece_count() - 1;
+  constexpr int few = 16;
+  int piece = 0, last = profile.piece_count() - 1;
+  while (few < last - piece) {
+    const int middle = piece + (last - piece + 1) / 2;
+    if (lateral < profile.joint(middle)) {
+      last = middle - 1;
+    } else {
+      piece = middle;
+    }
+  }
   while (piece < last && !(lateral < profile.joint(piece + 1))) ++piece;
   return piece;
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// @file
-/// A straight, level track: two rails of one profile, inclined inwards and set apart to gauge.
+/// A straight, level track: two rails, of one profile or each of its own, inclined inwards and set
+/// apart to gauge.
 /// May include: core, numerics, profile, surface.
 ///
 /// Track frame: x forward, y left, z up; the highest points of the two heads lie at z = 0, the
@@ -31,13 +32,18 @@ class TangentTrack {
   /// @param profile of both rails, not yet inclined, lateral coordinate to the field side.
   /// @throws std::invalid_argument unless the gauge is > 0 and the heads do not overlap, the
   ///   inclination is in (-0.5, 0.5), and the profile reaches 14 mm below its highest point.
-  explicit TangentTrack(R profile, const TrackDimensions<T>& dimensions = {})
-      : rail_(std::move(profile)), dimensions_(dimensions) {
+  explicit TangentTrack(const R& profile, const TrackDimensions<T>& dimensions = {})
+      : TangentTrack(profile, profile, dimensions) {}
+
+  /// Rails of their own on the left and on the right, each with its gauge point half the gauge from
+  /// the middle. @throws std::invalid_argument as above.
+  TangentTrack(R left, R right, const TrackDimensions<T>& dimensions)
+      : rails_{Rail<R>(std::move(left)), Rail<R>(std::move(right))}, dimensions_(dimensions) {
     using std::atan;
-    const auto seat =
-        detail::RailSeat<T>::of(rail_.profile(), dimensions_.gauge, dimensions_.inclination);
-    head_distance_ = seat.head_distance;
     for (const Side side : sides) {
+      const auto seat =
+          detail::RailSeat<T>::of(rail(side).profile(), dimensions_.gauge, dimensions_.inclination);
+      head_distance_ += seat.head_distance / T(2);
       const T sign = outboard_sign<T>(side);
       RailFrame<T>& frame = frames_[index_of(side)];
       frame.side = side;
@@ -50,7 +56,7 @@ class TangentTrack {
     }
   }
 
-  [[nodiscard]] const Rail<R>& rail(Side) const { return rail_; }
+  [[nodiscard]] const Rail<R>& rail(Side side) const { return rails_[index_of(side)]; }
   [[nodiscard]] const TrackDimensions<T>& dimensions() const { return dimensions_; }
 
   /// Distance between the highest points of the two heads [m].
@@ -67,9 +73,9 @@ class TangentTrack {
   }
 
  private:
-  Rail<R> rail_;
+  std::array<Rail<R>, 2> rails_;  // ordered as `sides`
   TrackDimensions<T> dimensions_;
-  T head_distance_{};
+  T head_distance_ = T(0);
   std::array<RailFrame<T>, 2> frames_;
 };
 
