@@ -66,7 +66,7 @@ for compiler in $compilers; do
   # The second compiler also brings a second level of optimisation, and the assertions.
   case $compiler in
     clang++) flags="-O1" ;;
-    *) flags="-O3 -DNDEBUG" ;;
+    *) flags="-O2 -DNDEBUG" ;;
   esac
   cmake -S . -B "$build" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_FLAGS_RELEASE="$flags" -DWHEELRAIL_BUILD_TESTS=ON -DWHEELRAIL_WARNINGS_AS_ERRORS=ON

@@ -9,7 +9,7 @@
 
 using namespace wheelrail;
 
-TEMPLATE_TEST_CASE("linearize: other scalars", "[dynamics][linearize]", float, long double,
+TEMPLATE_TEST_CASE("linearize: other scalars", "[dynamics][linearize]", float,
                    wheelrail_test::StrictScalar) {
   using T = TestType;
   MultibodyModel<T> model;

@@ -46,6 +46,8 @@ template <Profile P>
   const T at_upper = equation(profile.upper(), highest);
   if (T(0) < at_lower) return detail::foot_on_tangent(profile.lower(), lowest, lateral, up);
   if (at_upper < T(0)) return detail::foot_on_tangent(profile.upper(), highest, lateral, up);
+  // The equation rises by 1 at least outside a convex profile: its residual bounds the step.
+  const T tolerance = T(8) * epsilon<T>() * (profile.upper() - profile.lower());
   const auto root = bracketed_newton<T>(
       [&](const T& u) {
         const ProfilePoint<T> point = profile.evaluate(u);
@@ -54,8 +56,7 @@ template <Profile P>
             T(1) + point.slope * point.slope + (point.value - up) * point.second_derivative};
       },
       profile.lower(), profile.upper(), at_lower, at_upper, lateral,
-      {.step_tolerance = T(8) * epsilon<T>() * (profile.upper() - profile.lower()),
-       .maximum_iterations = 60});
+      {.step_tolerance = tolerance, .residual_tolerance = tolerance, .maximum_iterations = 60});
   const ProfilePoint<T> point = profile.evaluate(root.position);
   const T cosine = T(1) / sqrt(T(T(1) + point.slope * point.slope));
   const Vector2<T> normal_rail(-point.slope * cosine, cosine);
