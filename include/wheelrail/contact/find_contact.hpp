@@ -433,11 +433,14 @@ class StripWalk {
     if (!options_.zone_ends) return T(0) / T(0);
     if (left.wheel_lateral == right.wheel_lateral) return left.wheel_lateral;
     const T& threshold = options_.penetration_threshold;
+    const Strip& inside = penetrates(left) ? left : right;
+    const T depth = inside.penetration - threshold;
     const T share = boundary_share(left, right);
     T start =
         between(left, right, PenetrationCubic<T>(left, right, threshold).near_root(share), share);
     if (memory_ != nullptr) {
-      start = memory_->zone_end_between(left.wheel_lateral, right.wheel_lateral, start);
+      start = memory_->zone_end_between(left.wheel_lateral, right.wheel_lateral,
+                                        inside.wheel_lateral, depth, start);
     }
     bool lost = false;
     const T left_side = penetrates(left) ? T(1) : T(-1);  // all that matters of the values there
@@ -450,7 +453,7 @@ class StripWalk {
         },
         left.wheel_lateral, right.wheel_lateral, left_side, T(-left_side), start,
         {.residual_tolerance = margin_ / T(16), .grid = grid_});
-    if (memory_ != nullptr) memory_->add_zone_end(root.position);
+    if (memory_ != nullptr) memory_->add_zone_end(root.position, inside.wheel_lateral, depth);
     if (root.status != SolveStatus::converged || lost) {
       result_.status = SearchStatus::not_converged;
     }

@@ -42,11 +42,11 @@ template <Real T>
 class SearchMemory {
  public:
   /// @param skin how far the wheel may move, at most, before its surroundings are looked at anew [m].
-  ///   Where it moves less, less is allowed for, down to a sixteenth: so more can be known.
+  ///   Where it moves less, less is allowed for, down to a thirty-second: so more can be known.
   /// @throws std::invalid_argument unless skin is > 0 and at most a hundredth of the wheel's reach.
   /// @note Allocates; searches do not.
   template <Profile P>
-  explicit SearchMemory(const Wheel<P>& wheel, const T& skin = constant<T>(5e-5L))
+  explicit SearchMemory(const Wheel<P>& wheel, const T& skin = constant<T>(1e-4L))
       : motion_{skin, detail::max(detail::magnitude(wheel.profile().lower()),
                                   detail::magnitude(wheel.profile().upper())) +
                           wheel.strips().greatest_radius()},
@@ -91,7 +91,7 @@ class SearchMemory {
     if (is_valid_ && searches_ < few_searches) {
       motion_.distance = detail::min(skin_, T(T(2) * motion_.distance));
     } else if (is_valid_ && many_searches < searches_) {
-      motion_.distance = detail::max(T(skin_ / T(16)), T(motion_.distance / T(2)));
+      motion_.distance = detail::max(T(skin_ / T(32)), T(motion_.distance / T(2)));
     }
     searches_ = 0;
     count_ = 0;
@@ -109,17 +109,28 @@ class SearchMemory {
     last_zone_ends_ = zone_ends_;
     zone_ends_.clear();
   }
-  void add_zone_end(const T& lateral) { static_cast<void>(zone_ends_.push_back(lateral)); }
-  /// A zone's end of the search before between two laterals, if there is one, or `otherwise` [m].
-  [[nodiscard]] T zone_end_between(const T& lower, const T& upper, const T& otherwise) const {
-    for (const T& lateral : last_zone_ends_) {
-      if (lower < lateral && lateral < upper) return lateral;
+  /// @param inside a strip of the zone. @param depth of it beyond the threshold [m].
+  void add_zone_end(const T& lateral, const T& inside, const T& depth) {
+    static_cast<void>(zone_ends_.push_back({lateral, inside, depth}));
+  }
+  /// Where a zone's end between two laterals may be now: as in the search before, a parabola through
+  /// it and the strip inside; or `otherwise` [m].
+  [[nodiscard]] T zone_end_between(const T& lower, const T& upper, const T& inside, const T& depth,
+                                   const T& otherwise) const {
+    using std::sqrt;
+    for (const ZoneEnd& end : last_zone_ends_) {
+      if (!(lower < end.lateral) || !(end.lateral < upper)) continue;
+      const T moved = inside + (end.lateral - end.inside) * sqrt(T(depth / end.depth));
+      return lower < moved && moved < upper ? moved : end.lateral;
     }
     return otherwise;
   }
 
  private:
-  using ZoneEnds = FixedList<T, 16>;
+  struct ZoneEnd {
+    T lateral{}, inside{}, depth{};
+  };
+  using ZoneEnds = FixedList<ZoneEnd, 16>;
 
   [[nodiscard]] static Vector3<T> axle_rail(const WheelPlacement<T>& placement) {
     return Vector3<T>(-placement.sin_yaw, placement.cos_yaw * placement.cos_roll,
