@@ -99,8 +99,8 @@ TEST_CASE("SearchMemory: allows for less motion where the wheel moves less", "[c
     if (!memory.covers(rail, here, 0)) memory.restart(rail, here, 0);
     memory.begin_search();
   };
-  for (int i = 0; i < 3000; ++i) search(1e-7);
-  CHECK(memory.motion().distance == 1e-4 / 16);
+  for (int i = 0; i < 12000; ++i) search(3e-8);
+  CHECK(memory.motion().distance == 1e-4 / 32);
   for (int i = 0; i < 100; ++i) search(2e-5);
   CHECK(memory.motion().distance == 1e-4);
 }
