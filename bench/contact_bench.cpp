@@ -10,7 +10,9 @@
 #include <cstdio>
 #include <cstring>
 #include <map>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "contact_poses.hpp"
 #include "ratio_table.hpp"
@@ -58,6 +60,38 @@ void run_percentiles(benchmark::State& state, const Poses& poses, Search&& searc
   std::sort(times.begin(), times.end());
   state.counters["p50_ns"] = times[times.size() / 2];
   state.counters["p99_ns"] = times[times.size() * 99 / 100];
+}
+
+// Searches a batch into results that are used again; counters per search.
+template <class W, class R, class T>
+void run_batch(benchmark::State& state, const W& wheel, const R& rail,
+               const PlacementBatch<T>& batch, int threads) {
+  std::vector<ContactResult<T>> results(batch.size());
+  long searches = 0;
+  const long allocations = wheelrail_test::allocations_so_far();
+  for (auto _ : state) {
+    results = find_contacts(wheel, rail, batch, {}, threads, std::move(results));
+    benchmark::DoNotOptimize(results.data());
+    searches += static_cast<long>(batch.size());
+  }
+  const auto per_search = [&](long count) {
+    return static_cast<double>(count) / static_cast<double>(searches);
+  };
+  long evaluations = 0, patches = 0, failures = 0;
+  for (const auto& result : results) {
+    evaluations += result.evaluations;
+    patches += static_cast<long>(result.patches.size());
+    failures += result.status != SearchStatus::complete;
+  }
+  const auto per_result = [&](long count) {
+    return static_cast<double>(count) / static_cast<double>(results.size());
+  };
+  state.SetItemsProcessed(searches);
+  state.counters["evaluations"] = per_result(evaluations);
+  state.counters["patches"] = per_result(patches);
+  state.counters["failures"] = static_cast<double>(failures);
+  state.counters["allocations_per_search"] =
+      per_search(wheelrail_test::allocations_so_far() - allocations);
 }
 
 template <class Body>
@@ -121,6 +155,27 @@ void add_searches(const Setting& s) {
     add("yaw_mrad/" + std::to_string(yaw), [&rail, &s, &poses = poses](auto& state) {
       run(state, poses, [&](const auto& pose) { return find_contact(s.real, rail, pose); });
     });
+  }
+}
+
+void add_batches(const Setting& s) {
+  const auto& rail = s.rail();
+  add("batch/one_by_one", [&](auto& state) {
+    run(state, s.many, [&](const auto& pose) { return find_contact(s.real, rail, pose); });
+  });
+  add("batch/one_by_one_float", [&](auto& state) {
+    run(state, s.float_many,
+        [&](const auto& pose) { return find_contact(s.float_wheel, s.float_rail, pose); });
+  });
+  for (const int threads : {1, 2}) {
+    const std::string name = "batch/threads_" + std::to_string(threads);
+    // By the clock on the wall: the calling thread's own time says nothing of the others.
+    benchmark::RegisterBenchmark(name.c_str(), [&s, &rail, threads](auto& state) {
+      run_batch(state, s.real, rail, s.batch, threads);
+    })->UseRealTime();
+    benchmark::RegisterBenchmark((name + "_float").c_str(), [&s, threads](auto& state) {
+      run_batch(state, s.float_wheel, s.float_rail, s.float_batch, threads);
+    })->UseRealTime();
   }
 }
 
@@ -206,6 +261,33 @@ void print_ratios(const Setting& s) {
                                                                              brief_memory, brief);
                                                        })}},
       s.path.size());
+  const auto print_batches = [&](const char* title, const auto& wheel, const auto& on,
+                                 const auto& poses, const auto& batch) {
+    using Results = std::vector<decltype(find_contact(wheel, on, poses[0]))>;
+    Results results(poses.size());
+    const auto evaluations = [&] {
+      long sum = 0;
+      for (const auto& result : results) sum += result.evaluations;
+      return sum;
+    };
+    const auto one_by_one = [&] {
+      for (std::size_t i = 0; i < poses.size(); ++i) results[i] = find_contact(wheel, on, poses[i]);
+      return evaluations();
+    };
+    const auto together = [&](int threads) {
+      return [&, threads] {
+        results = find_contacts(wheel, on, batch, {}, threads, std::move(results));
+        return evaluations();
+      };
+    };
+    print_ratio_table(title,
+                      {{"strips, S1002, one by one, cold", one_by_one},
+                       {"strips, S1002, batch", together(1)},
+                       {"strips, S1002, batch on two threads", together(2)}},
+                      poses.size());
+  };
+  print_batches("many poses", s.real, rail, s.many, s.batch);
+  print_batches("many poses, float", s.float_wheel, s.float_rail, s.float_many, s.float_batch);
 }
 
 }  // namespace
@@ -221,6 +303,7 @@ int main(int argc, char** argv) {
     return 0;
   }
   add_searches(setting);
+  add_batches(setting);
   add_stages(setting);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

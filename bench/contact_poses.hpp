@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 #include <vector>
+#include <wheelrail/contact/find_contact_batch.hpp>
 #include <wheelrail/numerics/cubic_spline.hpp>
 #include <wheelrail/wheelrail.hpp>
 
@@ -77,6 +78,11 @@ struct Setting {
   wheelrail::ConvexParts<double> parts = wheelrail::convex_parts(convex.profile());
   std::vector<Placement> poses;  // 256 over the gauge clearance, in no order
   std::vector<wheelrail::WheelPlacement<float>> float_poses;
+  // 4096 as `poses` are, one by one and as batches.
+  std::vector<Placement> many;
+  wheelrail::PlacementBatch<double> batch;
+  std::vector<wheelrail::WheelPlacement<float>> float_many;
+  wheelrail::PlacementBatch<float> float_batch;
   std::vector<Placement> path;                       // 4096 of a hunting motion
   std::map<int, std::vector<Placement>> by_patches;  // 128 of each
   std::map<int, std::vector<Placement>> by_yaw;      // 128 at +-1, 10, 30 mrad
@@ -114,6 +120,14 @@ struct Setting {
       }
     }
     add_stage_items();
+    for (int i = 0; i < 5000 && many.size() < 4096; ++i) {
+      add_pose(many, between(-0.006, 0.006), between(-0.01, 0.01));
+    }
+    for (const Placement& pose : many) {
+      batch.push_back(pose);
+      float_many.push_back(rounded(pose));
+      float_batch.push_back(float_many.back());
+    }
   }
 
   [[nodiscard]] const wheelrail::Rail<wheelrail::RailHead<double>>& rail() const {
@@ -133,7 +147,9 @@ struct Setting {
       }
       return one.status != SearchStatus::complete || other.status != SearchStatus::complete;
     };
-    if (!is_full() || poses.size() < 256 || path.size() < 4096) return "poses are missing";
+    if (!is_full() || poses.size() < 256 || path.size() < 4096 || many.size() < 4096) {
+      return "poses are missing";
+    }
     int float_misses = 0;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const auto& pose = poses[i];
@@ -161,6 +177,20 @@ struct Setting {
                  1e-12)) {
         return "the warm minimum distance method differs from the cold one";
       }
+    }
+    for (const int threads : {1, 2}) {
+      const auto found = find_contacts(real, rail(), batch, {}, threads);
+      const auto float_found = find_contacts(float_wheel, float_rail, float_batch, {}, threads);
+      int unlike_floats = 0;
+      for (std::size_t i = 0; i < many.size(); ++i) {
+        if (differ(find_contact(real, rail(), many[i]), found[i], 1e-15)) {
+          return "a batch differs from single searches";
+        }
+        if (differ(find_contact(float_wheel, float_rail, float_many[i]), float_found[i], 1e-6)) {
+          ++unlike_floats;
+        }
+      }
+      if (unlike_floats > 64) return "a batch of floats differs from single searches";
     }
     return nullptr;
   }

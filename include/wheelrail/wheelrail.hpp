@@ -3,7 +3,7 @@
 /// All of wheelrail but the rigid bodies (dynamics/), files (io/) and the integrator of numerics/.
 /// Frames, axes, signs and units are in conventions.hpp.
 
-#include <wheelrail/contact/find_contact.hpp>
+#include <wheelrail/contact/find_contact_batch.hpp>
 #include <wheelrail/contact/minimum_distance.hpp>
 #include <wheelrail/conventions.hpp>
 #include <wheelrail/force/contact_force.hpp>

@@ -405,3 +405,29 @@ TEST_CASE("RailHead: evaluate and closest_point do not allocate", "[profile][no-
         }) == 0);
   CHECK(sum < 0);
 }
+
+TEST_CASE("RailHead: the nearest points of several lanes are those of one after the other",
+          "[profile]") {
+  const auto rail = wheelrail::uic50<double>();
+  using Lanes = wheelrail::detail::Lanes<double>;
+  int sides = 0;
+  for (int step = 0; step < 200; ++step) {
+    Lanes lateral, up;
+    for (int lane = 0; lane < wheelrail::detail::lane_count; ++lane) {
+      // From side to side; above the head, and below its top where it is flat.
+      lateral[lane] = -0.045 + 0.09 * ((step * 7 + lane * 31) % 211) / 210;
+      up[lane] = -0.03 + 0.05 * ((step * 5 + lane * 13) % 97) / 96;
+    }
+    const auto feet = rail.closest_points(lateral, up);
+    for (int lane = 0; lane < wheelrail::detail::lane_count; ++lane) {
+      const auto foot = rail.closest_point(lateral[lane], up[lane]);
+      sides += foot.curvature == 0 ? 1 : 0;
+      CHECK(std::abs(feet.lateral[lane] - foot.lateral) < 1e-15);
+      CHECK(std::abs(feet.penetration[lane] - foot.penetration) < 1e-15);
+      CHECK(std::abs(feet.normal_lateral[lane] - foot.normal_rail.x()) < 1e-15);
+      CHECK(std::abs(feet.normal_up[lane] - foot.normal_rail.y()) < 1e-15);
+      CHECK(feet.curvature[lane] == foot.curvature);
+    }
+  }
+  CHECK(sides > 100);
+}

@@ -336,18 +336,8 @@ class StripWalk {
     }
   }
 
-  // `share` of the way from left to right; where it leads out of the interval, `otherwise`.
-  [[nodiscard]] static T between(const Strip& left, const Strip& right, const T& share,
-                                 const T& otherwise) {
-    return left.wheel_lateral + (T(0) < share && share < T(1) ? share : otherwise) *
-                                    (right.wheel_lateral - left.wheel_lateral);
-  }
-
-  // Where between two strips the penetration's extremum may be, if there is one.
   [[nodiscard]] T extremum_guess(const Strip& left, const Strip& right) const {
-    const T secant = left.slope / (left.slope - right.slope);
-    const PenetrationCubic<T> cubic(left, right, options_.penetration_threshold);
-    return between(left, right, cubic.near_extremum(secant), secant);
+    return detail::extremum_guess(left, right, options_.penetration_threshold);
   }
 
   // Solves for the extremum of the penetration between two strips of one piece, if there is one
@@ -412,22 +402,6 @@ class StripWalk {
     last_ = Strip();
   }
 
-  // The share of the way from left to right: a parabola with its top at the strip inside, where that
-  // is the zone's deepest; otherwise a chord.
-  [[nodiscard]] T boundary_share(const Strip& left, const Strip& right) const {
-    using std::sqrt;
-    const bool left_is_inside = penetrates(left);
-    const Strip& inside = left_is_inside ? left : right;
-    const Strip& outside = left_is_inside ? right : left;
-    const T depth = inside.penetration - options_.penetration_threshold;
-    const T chord = depth / (inside.penetration - outside.penetration);
-    const bool at_top =
-        magnitude(inside.slope) * magnitude(T(right.wheel_lateral - left.wheel_lateral)) <
-        depth / T(4);
-    const T share = at_top ? T(sqrt(chord)) : chord;
-    return left_is_inside ? share : T(T(1) - share);
-  }
-
   // Where the penetration passes the threshold between two neighbouring strips.
   [[nodiscard]] T boundary(const Strip& left, const Strip& right) {
     if (!options_.zone_ends) return T(0) / T(0);
@@ -435,9 +409,7 @@ class StripWalk {
     const T& threshold = options_.penetration_threshold;
     const Strip& inside = penetrates(left) ? left : right;
     const T depth = inside.penetration - threshold;
-    const T share = boundary_share(left, right);
-    T start =
-        between(left, right, PenetrationCubic<T>(left, right, threshold).near_root(share), share);
+    T start = boundary_guess(left, right, penetrates(left), threshold);
     if (memory_ != nullptr) {
       start = memory_->zone_end_between(left.wheel_lateral, right.wheel_lateral,
                                         inside.wheel_lateral, depth, start);
@@ -463,12 +435,8 @@ class StripWalk {
   void close_zone(const T& zone_upper) {
     zone_is_open_ = false;
     ++result_.evaluations;
-    const ProfilePoint<T> point = wheel_.profile().evaluate(deepest_.piece, deepest_.wheel_lateral);
-    const LocusPoint<T> locus = locus_point(wheel_, placement_, deepest_.wheel_lateral, point);
-    const ClosestPoint<T> foot = rail_foot(rail_.profile(), locus.lateral, locus.up);
-    Patch<T> patch = patch_at(
-        wheel_, rail_, placement_, deepest_.wheel_lateral, point, locus.angle, foot.lateral,
-        Vector3<T>(T(0), foot.normal_rail.x(), foot.normal_rail.y()), foot.penetration);
+    Patch<T> patch =
+        patch_on_strip(wheel_, rail_, placement_, deepest_.piece, deepest_.wheel_lateral);
     patch.zone_lower = zone_lower_;
     patch.zone_upper = options_.zone_ends ? zone_upper : zone_lower_;
     patch.zone_is_cut = zone_is_cut_;

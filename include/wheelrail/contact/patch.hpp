@@ -117,5 +117,18 @@ template <Profile P, Profile R>
   return patch;
 }
 
+/// The patch at a strip's locus point, its zone not yet known.
+template <Profile P, Profile R>
+[[nodiscard]] Patch<typename P::Scalar> patch_on_strip(
+    const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
+    int piece, const typename P::Scalar& wheel_lateral) {
+  using T = typename P::Scalar;
+  const ProfilePoint<T> point = wheel.profile().evaluate(piece, wheel_lateral);
+  const LocusPoint<T> locus = locus_point(wheel, placement, wheel_lateral, point);
+  const ClosestPoint<T> foot = rail_foot(rail.profile(), locus.lateral, locus.up);
+  return patch_at(wheel, rail, placement, wheel_lateral, point, locus.angle, foot.lateral,
+                  Vector3<T>(T(0), foot.normal_rail.x(), foot.normal_rail.y()), foot.penetration);
+}
+
 }  // namespace detail
 }  // namespace wheelrail

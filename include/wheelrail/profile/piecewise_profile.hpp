@@ -13,6 +13,14 @@
 
 namespace wheelrail {
 
+namespace detail {
+template <Profile P>
+class ProfileLanes;
+}
+
+template <Real T>
+class PiecewiseProfile;
+
 /// One smooth piece over [lower, upper] [m]: a polynomial of degree up to 8 or a circular arc.
 template <Real T>
 class ProfilePiece {
@@ -170,6 +178,8 @@ class ProfilePiece {
                     "less than its upper end, " + detail::to_text(upper) + " m");
   }
 
+  friend class detail::ProfileLanes<PiecewiseProfile<T>>;
+
   T lower_;
   T upper_;
   T origin_{};
@@ -207,6 +217,11 @@ class PiecewiseProfile {
   [[nodiscard]] int piece_count() const { return static_cast<int>(pieces_.size()); }
   [[nodiscard]] T joint(int i) const {
     return i < piece_count() ? pieces_[static_cast<std::size_t>(i)].lower() : upper();
+  }
+
+  /// @pre 0 <= i < piece_count()
+  [[nodiscard]] const ProfilePiece<T>& piece(int i) const {
+    return pieces_[static_cast<std::size_t>(i)];
   }
 
   /// @pre lower() <= lateral <= upper()

@@ -6,9 +6,20 @@
 
 #include <array>
 #include <vector>
+#include <wheelrail/core/detail/lanes.hpp>
 #include <wheelrail/profile/piecewise_profile.hpp>
 
 namespace wheelrail {
+
+namespace detail {
+
+// ClosestPoint of each lane.
+template <Real T>
+struct ClosestPointLanes {
+  Lanes<T> lateral, penetration, normal_lateral, normal_up, curvature;
+};
+
+}  // namespace detail
 
 /// What a rail head is built from, all [m]; the origin is the top of the head on its axis.
 template <Real T>
@@ -83,6 +94,44 @@ class RailHead {
     const T inverse = T(1) / distance;
     return {sign * (circle.lateral + circle.radius * dx * inverse), circle.radius - distance,
             Vector2<T>(sign * dx * inverse, dz * inverse), circle.curvature};
+  }
+
+  /// The same for a point of each lane.
+  [[nodiscard]] detail::ClosestPointLanes<T> closest_points(const detail::Lanes<T>& lateral,
+                                                            const detail::Lanes<T>& up) const {
+    using Lanes = detail::Lanes<T>;
+    const Joint &first = ends_[0], &second = ends_[1], &third = ends_[2];
+    const Lanes zero = Lanes::Zero();
+    const Lanes sign = T(1) - T(2) * detail::less<T>(lateral, zero);
+    const Lanes x = sign * lateral;
+    const auto along = [&](const Joint& end) -> Lanes {
+      return end.cosine * (x - end.lateral) - end.sine * (up - end.up);
+    };
+    const Lanes passes_1 = detail::less<T>(zero, along(first));
+    const Lanes passes_2 = passes_1 * detail::less<T>(zero, along(second));
+    const Lanes along_3 = along(third);
+    const Lanes passes_3 = passes_2 * detail::less<T>(zero, along_3);
+    const auto of_arc = [&](T Circle::*value) -> Lanes {
+      const auto of = [&](std::size_t arc) { return detail::all_lanes(circles_[arc].*value); };
+      return detail::choose<T>(passes_2, of(2), detail::choose<T>(passes_1, of(1), of(0)));
+    };
+    const Lanes centre = of_arc(&Circle::lateral), radius = of_arc(&Circle::radius);
+    const Lanes dx = x - centre, dz = up - of_arc(&Circle::up);
+    const Lanes distance = (dx * dx + dz * dz).sqrt();
+    const Lanes inverse = T(1) / distance;
+    detail::ClosestPointLanes<T> foot{sign * (centre + radius * dx * inverse), radius - distance,
+                                      sign * dx * inverse, dz * inverse,
+                                      of_arc(&Circle::curvature)};
+    if (!detail::any<T>(passes_3)) return foot;
+    const auto on_side = [&](const Lanes& there, Lanes& here) {
+      here = detail::choose<T>(passes_3, there, here);
+    };
+    on_side(sign * (third.lateral + along_3 * third.cosine), foot.lateral);
+    on_side(-(third.sine * (x - third.lateral) + third.cosine * (up - third.up)), foot.penetration);
+    on_side(sign * third.sine, foot.normal_lateral);
+    on_side(detail::all_lanes(third.cosine), foot.normal_up);
+    on_side(zero, foot.curvature);
+    return foot;
   }
 
  private:

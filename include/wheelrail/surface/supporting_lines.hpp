@@ -4,6 +4,7 @@
 /// one of them does not touch the rail. May include: core, numerics, profile.
 
 #include <vector>
+#include <wheelrail/core/detail/lanes.hpp>
 #include <wheelrail/core/vector.hpp>
 #include <wheelrail/profile/profile.hpp>
 
@@ -56,20 +57,43 @@ class SupportingLines {
   [[nodiscard]] const SupportingLine<T>& near(const T& lateral, const T& up) const {
     using std::sqrt;
     const T dy = lateral - inside_.x(), dz = detail::max(T(0), T(up - inside_.y()));
-    const T position = (T(1) + dy / sqrt(T(dy * dy + dz * dz))) * T(count / 2);
+    return line((T(1) + dy / sqrt(T(dy * dy + dz * dz))) * T(count / 2));
+  }
+
+  /// `near` for the point of each lane: visit(lane, line).
+  template <class Visit>
+  void near_each(const detail::Lanes<T>& lateral, const detail::Lanes<T>& up, Visit&& visit) const {
+    using Lanes = detail::Lanes<T>;
+    const Lanes dy = lateral - inside_.x(), dz = (up - inside_.y()).max(T(0));
+    const Lanes place = (T(1) + dy / (dy * dy + dz * dz).sqrt()) * T(count / 2);
+    if constexpr (std::is_floating_point_v<T>) {
+      const Lanes least = Lanes::Zero(), greatest = detail::all_lanes(T(count - 1));
+      const Lanes from_least = detail::choose<T>(detail::less<T>(least, place), place, least);
+      const Lanes within =
+          detail::choose<T>(detail::less<T>(from_least, greatest), from_least, greatest);
+      for (int lane = 0; lane < detail::lane_count; ++lane) {
+        visit(lane, lines_[static_cast<std::size_t>(static_cast<int>(within[lane]))]);
+      }
+    } else {
+      for (int lane = 0; lane < detail::lane_count; ++lane) visit(lane, line(place[lane]));
+    }
+  }
+
+ private:
+  // The line at a place among all, from 0 to `count`.
+  [[nodiscard]] const SupportingLine<T>& line(const T& place) const {
     int low = 0;
     if constexpr (std::is_floating_point_v<T>) {
-      if (T(0) < position) low = position < T(count) ? static_cast<int>(position) : count - 1;
+      if (T(0) < place) low = place < T(count) ? static_cast<int>(place) : count - 1;
     } else {
       for (int high = count; low + 1 < high;) {
         const int middle = low + (high - low) / 2;
-        (position < T(middle) ? high : low) = middle;
+        (place < T(middle) ? high : low) = middle;
       }
     }
     return lines_[static_cast<std::size_t>(low)];
   }
 
- private:
   Vector2<T> inside_{T(0), T(0)};
   std::vector<SupportingLine<T>> lines_;
 };

@@ -270,4 +270,40 @@ struct PenetrationCubic {
   }
 };
 
+// `share` of the way from left to right; where it leads out of the interval, `otherwise`.
+template <Real T>
+[[nodiscard]] T between(const LocusStrip<T>& left, const LocusStrip<T>& right, const T& share,
+                        const T& otherwise) {
+  return left.wheel_lateral + (T(0) < share && share < T(1) ? share : otherwise) *
+                                  (right.wheel_lateral - left.wheel_lateral);
+}
+
+// Where between two strips the penetration's extremum may be, if there is one [m].
+template <Real T>
+[[nodiscard]] T extremum_guess(const LocusStrip<T>& left, const LocusStrip<T>& right,
+                               const T& threshold) {
+  const T secant = left.slope / (left.slope - right.slope);
+  const PenetrationCubic<T> cubic(left, right, threshold);
+  return between(left, right, cubic.near_extremum(secant), secant);
+}
+
+// Where between two strips, one of which penetrates, the penetration may pass the threshold [m]. The
+// cubic's root is looked for from a parabola with its top at the strip inside, where that is the
+// zone's deepest; otherwise from a chord.
+template <Real T>
+[[nodiscard]] T boundary_guess(const LocusStrip<T>& left, const LocusStrip<T>& right,
+                               bool left_is_inside, const T& threshold) {
+  using std::sqrt;
+  const LocusStrip<T>& inside = left_is_inside ? left : right;
+  const LocusStrip<T>& outside = left_is_inside ? right : left;
+  const T depth = inside.penetration - threshold;
+  const T chord = depth / (inside.penetration - outside.penetration);
+  const bool at_top =
+      magnitude(inside.slope) * magnitude(T(right.wheel_lateral - left.wheel_lateral)) <
+      depth / T(4);
+  const T from_inside = at_top ? T(sqrt(chord)) : chord;
+  const T share = left_is_inside ? from_inside : T(T(1) - from_inside);
+  return between(left, right, PenetrationCubic<T>(left, right, threshold).near_root(share), share);
+}
+
 }  // namespace wheelrail::detail

@@ -1,0 +1,85 @@
+#pragma once
+// NearRuns in lanes: one walk over a wheel's strip tree for several placements.
+// May include: core, numerics, profile, surface, contact/placement.
+
+#include <wheelrail/contact/detail/locus_strip_lanes.hpp>
+
+namespace wheelrail::detail {
+
+// Calls visit(lane, first, last) for the runs of each lane as NearRuns::for_each does for one
+// placement, without a clearance. threshold: as there [m].
+template <Profile P, Profile R, class Visit>
+void for_each_near_run(const Wheel<P>& wheel, const Rail<R>& rail,
+                       const PlacementLanes<typename P::Scalar>& at,
+                       const typename P::Scalar& threshold, Visit&& visit) {
+  using T = typename P::Scalar;
+  const auto& nodes = wheel.strips().nodes();
+  const auto& lines = rail.supporting_lines();
+  const int widest = rail.is_convex() ? 16 : 0;
+  const Lanes<T> axle_lateral = at.cos_roll * at.cos_yaw, axle_up = at.sin_roll * at.cos_yaw;
+  const Lanes<T> fold = at.sin_yaw * at.tan_yaw;
+  Lanes<T> along = Lanes<T>::Zero(),
+           across = Lanes<T>::Zero();                         // of the last line, n.a and its root
+  Lanes<T> height = Lanes<T>::Constant(T(1) / epsilon<T>());  // n.(P - o) [m]
+  // The node that a lane looks at next; a node before it was left out there.
+  Lanes<T> resume = Lanes<T>::Zero();
+  const Lanes<T> finest =
+      T(1) + T(3) * less<T>(at.tan_yaw * at.tan_yaw, all_lanes(constant<T>(1e-4L)));
+  const Lanes<T> limit = all_lanes(threshold);
+  std::array<int, lane_count> first{}, last{};  // of the run so far: empty
+  // Flags of the lanes whose line does not keep the node off the rail.
+  const auto is_near = [&](const StripNode<T>& node) -> Lanes<T> {
+    const Lanes<T> lean = node.slope * across - along;
+    return T(1) - less<T>(height - node.centre * along + node.greatest_radius * across +
+                              lean.abs() * node.half_width,
+                          limit);
+  };
+  for (std::size_t index = 0; index < nodes.size();) {
+    const StripNode<T>& node = nodes[index];
+    const T place = T(static_cast<int>(index)), skip = T(static_cast<int>(node.skip));
+    const Lanes<T> looks = T(1) - less<T>(all_lanes(place), resume);
+    Lanes<T> is_kept = looks * is_near(node);
+    bool is_any_kept = any<T>(is_kept);
+    if (is_any_kept && node.last - node.first <= widest) {
+      const Lanes<T> y = node.centre - node.greatest_radius * node.slope * fold;
+      const Lanes<T> z = -node.greatest_radius * (T(1) - node.slope * node.slope * fold / T(2));
+      Lanes<T> normal_lateral, normal_up, line_height;
+      lines.near_each(at.lateral_rail + y * at.cos_roll - z * at.sin_roll,
+                      at.up_rail + y * at.sin_roll + z * at.cos_roll,
+                      [&](int lane, const SupportingLine<T>& line) {
+                        normal_lateral[lane] = line.normal.x();
+                        normal_up[lane] = line.normal.y();
+                        line_height[lane] = line.height;
+                      });
+      const Lanes<T> new_along = normal_lateral * axle_lateral + normal_up * axle_up;
+      along = choose<T>(is_kept, new_along, along);
+      across = choose<T>(is_kept, (T(1) - new_along * new_along).sqrt(), across);
+      height = choose<T>(
+          is_kept, line_height - normal_lateral * at.lateral_rail - normal_up * at.up_rail, height);
+      is_kept = is_kept * is_near(node);
+      is_any_kept = any<T>(is_kept);
+    }
+    // The lanes that look at the node's children; for the others that kept it, it belongs to a run.
+    Lanes<T> goes_down = is_kept;
+    if (is_any_kept && node.is_in_one_piece && node.last - node.first <= 4) {
+      goes_down = is_kept * less<T>(finest, all_lanes(T(node.last - node.first)));
+      for (int lane = 0; lane < lane_count; ++lane) {
+        if (!(goes_down[lane] < is_kept[lane])) continue;
+        const auto i = static_cast<std::size_t>(lane);
+        if (node.first != last[i]) {
+          if (first[i] != last[i]) visit(lane, first[i], last[i]);
+          first[i] = node.first;
+        }
+        last[i] = node.last;
+      }
+      is_any_kept = any<T>(goes_down);
+    }
+    resume = choose<T>(looks * (T(1) - goes_down), all_lanes(skip), resume);
+    index = is_any_kept ? index + 1 : node.skip;
+  }
+  for (std::size_t i = 0; i < lane_count; ++i) {
+    if (first[i] != last[i]) visit(static_cast<int>(i), first[i], last[i]);
+  }
+}
+
+}  // namespace wheelrail::detail
