@@ -17,10 +17,13 @@
 #include <wheelrail/track/irregularities.hpp>
 #include <wheelrail/track/nodal_track.hpp>
 #include <wheelrail/track/tangent_track.hpp>
+#include <wheelrail/wheelset/contact_lookup.hpp>
+#include <wheelrail/wheelset/contact_lookup_report.hpp>
 #include <wheelrail/wheelset/equivalent_conicity.hpp>
 #include <wheelrail/wheelset/fit.hpp>
 #include <wheelrail/wheelset/kinematics.hpp>
 #include <wheelrail/wheelset/kinematics_table.hpp>
+#include <wheelrail/wheelset/lookup_axis.hpp>
 #include <wheelrail/wheelset/search_method.hpp>
 #include <wheelrail/wheelset/touching_position.hpp>
 #include <wheelrail/wheelset/wheelset.hpp>

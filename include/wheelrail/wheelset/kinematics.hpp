@@ -169,40 +169,6 @@ class WheelsetSetter {
     return at;
   }
 
- private:
-  // The height at which a wheel touches falls with the roll on one side and rises on the other (but
-  // on flanges steeper than a rolling axle allows, where there is no solution that is stable). At a
-  // jump of the contact point both keep on, with a kink: a bracket is safe where Newton's method in
-  // two unknowns may alternate.
-  void solve_roll(WheelsetKinematics<T>& at, const T& start) const {
-    const T reach = constant<T>(0.1L);
-    const auto root = bracketed_newton<T>(
-        [&](const T& roll) {
-          turn_to(at, roll);
-          const WheelTouch<T>& left = at.wheels[0];
-          const WheelTouch<T>& right = at.wheels[1];
-          const bool touches =
-              left.status == TouchStatus::touching && right.status == TouchStatus::touching;
-          return ValueAndSlope<T>{touches ? T(left.height - right.height) : T(T(0) / T(0)),
-                                  T(left.height_by_roll - right.height_by_roll)};
-        },
-        // Of the values at the ends only the signs matter.
-        T(start - reach), T(start + reach), reach, T(-reach), start,
-        {.residual_tolerance = T(4) * tolerance_, .maximum_iterations = maximum_iterations_});
-    if (root.status == SolveStatus::converged && root.position != at.roll) {
-      turn_to(at, root.position);
-    }
-  }
-
-  void turn_to(WheelsetKinematics<T>& at, const T& roll) const {
-    for (const Side side : sides) {
-      WheelTouch<T>& wheel = at.wheels[index_of(side)];
-      const T height = wheel.height + wheel.height_by_roll * (roll - at.roll);
-      wheel = set_down(side, roll, height);
-    }
-    at.roll = roll;
-  }
-
   // One wheel at a given roll, from a height to start with. The height falls until something is
   // near; from there Newton's method, whose function, the greatest penetration, falls with the
   // height whichever point is the deepest.
@@ -256,6 +222,40 @@ class WheelsetSetter {
       reach = depth < T(10) * closeness_ ? closeness_ : max(closeness_, min(reach, depth));
     }
     return touch;
+  }
+
+ private:
+  // The height at which a wheel touches falls with the roll on one side and rises on the other (but
+  // on flanges steeper than a rolling axle allows, where there is no solution that is stable). At a
+  // jump of the contact point both keep on, with a kink: a bracket is safe where Newton's method in
+  // two unknowns may alternate.
+  void solve_roll(WheelsetKinematics<T>& at, const T& start) const {
+    const T reach = constant<T>(0.1L);
+    const auto root = bracketed_newton<T>(
+        [&](const T& roll) {
+          turn_to(at, roll);
+          const WheelTouch<T>& left = at.wheels[0];
+          const WheelTouch<T>& right = at.wheels[1];
+          const bool touches =
+              left.status == TouchStatus::touching && right.status == TouchStatus::touching;
+          return ValueAndSlope<T>{touches ? T(left.height - right.height) : T(T(0) / T(0)),
+                                  T(left.height_by_roll - right.height_by_roll)};
+        },
+        // Of the values at the ends only the signs matter.
+        T(start - reach), T(start + reach), reach, T(-reach), start,
+        {.residual_tolerance = T(4) * tolerance_, .maximum_iterations = maximum_iterations_});
+    if (root.status == SolveStatus::converged && root.position != at.roll) {
+      turn_to(at, root.position);
+    }
+  }
+
+  void turn_to(WheelsetKinematics<T>& at, const T& roll) const {
+    for (const Side side : sides) {
+      WheelTouch<T>& wheel = at.wheels[index_of(side)];
+      const T height = wheel.height + wheel.height_by_roll * (roll - at.roll);
+      wheel = set_down(side, roll, height);
+    }
+    at.roll = roll;
   }
 
   // Whether the normals face each other: not so where a profile ends. 1e-6 is an angle of 1.4 mrad.
