@@ -14,7 +14,7 @@ cmake --build build/study-build --parallel "$(nproc)"
 
 build/study-build/examples/three_case_study --output build/study
 
-for plot in examples/plots/*.gp; do
+for plot in examples/plots/fig*.gp; do
   name=$(basename -- "$plot" .gp)
   gnuplot -e "data='build/study'; set terminal pngcairo size 1200,900 font ',11'; \
     set output 'build/study/$name.png'" "$plot"

@@ -1,6 +1,6 @@
 // The paper's study (§6): a wheelset, a bogie and a vehicle in a curve, each in three scenarios,
 // repeated for their times. Writes the tables, the data of Figs. 3, 7 and 12 to 19 and a report.
-// Drawn by plots/*.gp; `sh examples/study.sh` does it all.
+// Drawn by plots/fig*.gp; `sh examples/study.sh` does it all.
 
 #include <cstdio>
 #include <functional>

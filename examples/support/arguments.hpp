@@ -16,7 +16,7 @@ namespace examples {
 
 struct Option {
   std::string name;           // with its dashes
-  std::string placeholder;    // what the value is, e.g. "M/S"
+  std::string placeholder;    // what the value is, e.g. "M/S"; empty: it has none
   std::string default_value;  // empty: none
   std::string help;           // with the unit
 };
@@ -41,10 +41,13 @@ class Arguments {
         value = name.substr(equals + 1);
         name.resize(equals);
       }
-      if (find(name) == nullptr) {
+      const Option* option = find(name);
+      if (option == nullptr) {
         throw std::invalid_argument("unknown option " + name + " (--help lists the options)");
       }
-      if (!has_value) {
+      if (option->placeholder.empty()) {
+        if (has_value) throw std::invalid_argument(name + " takes no value");
+      } else if (!has_value) {
         if (i + 1 >= argc) throw std::invalid_argument(name + ": its value is missing");
         value = argv[++i];
       }
@@ -124,7 +127,8 @@ class Arguments {
     const std::string program = path.substr(path.find_last_of('/') + 1);
     std::printf("usage: %s [options]\n\n%s\n\noptions:\n", program.c_str(), summary_.c_str());
     for (const Option& option : options_) {
-      const std::string left = option.name + " " + option.placeholder;
+      const std::string left =
+          option.placeholder.empty() ? option.name : option.name + " " + option.placeholder;
       std::printf("  %-28s %s", left.c_str(), option.help.c_str());
       if (!option.default_value.empty()) std::printf(" (default %s)", option.default_value.c_str());
       std::printf("\n");

@@ -559,3 +559,17 @@ TEST_CASE("SplineProfile: bad points are named", "[profile][bad-input]") {
   CHECK(!std::is_sorted(points.laterals.begin(), points.laterals.end()));
   CHECK_NOTHROW(Spline(points.laterals, points.values));
 }
+
+TEST_CASE("estimated_noise: that of a sampled profile, and nearly none without",
+          "[profile][random]") {
+  for (const double spacing : {1e-4, 5e-4}) {
+    for (const double noise : {0.0, 1e-6, 1e-5}) {
+      CAPTURE(spacing, noise);
+      const Points wheel = wheel_points(spacing, noise, 21);
+      const double found = estimated_noise(wheel.laterals, wheel.values);
+      // Of hundreds of points and more; the shape itself adds up to tens of nanometres.
+      CHECK(std::abs(found - noise) < 0.15 * noise + 3e-8);
+    }
+  }
+  CHECK(estimated_noise(std::vector<double>(3), std::vector<double>(3)) == 0);
+}

@@ -13,6 +13,7 @@
 #include <concepts>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -92,6 +93,28 @@ void append_number(std::string& text, const T& value) {
   text.append(digits, result.ptr);
 }
 
+// A length in the file's unit. In another one than metres, fewer digits are taken where they are
+// read as the same length, and zero has no sign: what was read as 12.3 mm is written as that, not as
+// 12.299999999999999.
+template <std::floating_point T>
+void append_length(std::string& text, const T& length, const T& units) {
+  if (units == T(1)) {
+    append_number(text, length);
+    return;
+  }
+  const T scaled = length * units + T(0);  // -0 + 0 is 0
+  char digits[64];
+  const auto end = std::to_chars(digits, digits + sizeof digits, scaled, std::chars_format::general,
+                                 std::numeric_limits<T>::digits10);
+  T read = T(0);
+  std::from_chars(digits, end.ptr, read);
+  if (read / units == length) {
+    text.append(digits, end.ptr);
+  } else {
+    append_number(text, scaled);
+  }
+}
+
 }  // namespace detail
 
 /// A profile from the text of a file.
@@ -159,7 +182,8 @@ template <Real T = double>
 }
 
 /// The text of a profile file. Numbers are the shortest that read back the same: in metres points
-/// of float and double come back bit for bit, in millimetres to rounding.
+/// of float and double come back bit for bit, in millimetres to rounding, and so that a short
+/// decimal number of millimetres is written as it was read.
 ///
 /// SIMPACK: z downwards at the contact (outward on a wheel, inward on a rail), y to the field side,
 /// a wheel's points from the field side. MiniProf: in mm, X to the field side, Y outward. Table:
@@ -212,9 +236,9 @@ template <std::floating_point T>
   }
   for (std::size_t k = 0; k < points.size(); ++k) {
     const std::size_t i = is_simpack && is_wheel ? points.size() - 1 - k : k;
-    detail::append_number(text, T(points.lateral[i] * units));
+    detail::append_length(text, points.lateral[i], units);
     text.append(is_simpack || is_miniprof ? " " : ",");
-    detail::append_number(text, T(value_sign * points.value[i] * units));
+    detail::append_length(text, T(value_sign * points.value[i]), units);
     text.append("\n");
   }
   if (is_simpack) text.append("  point.end\nspline.end\n");

@@ -15,7 +15,9 @@
 /// intervals as long as they follow it within a small part of the noise. They are fewer than the
 /// points; two of them make one piece of the Profile.
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -39,6 +41,41 @@ struct SplineFitOptions {
   /// noise, and not less than rounding, 64 epsilon times the greatest coordinate, nor than 1e-10 m.
   T curve_tolerance = T(0);
 };
+
+/// The level of the noise across a measured profile [m], one standard deviation: from what four
+/// neighbouring points are off a parabola over the chordal arc length, in the median, so that corners
+/// count little. For normally distributed noise; 0 for fewer than eight points.
+/// @param laterals, values of the points [m]. @pre as many of both, neighbours apart from each other
+template <Real T>
+[[nodiscard]] T estimated_noise(const std::vector<T>& laterals, const std::vector<T>& values) {
+  using std::sqrt;
+  if (laterals.size() < 8 || values.size() != laterals.size()) return T(0);
+  std::vector<T> residuals;
+  for (std::size_t first = 0; first + 3 < laterals.size(); ++first) {
+    std::array<T, 4> arc{T(0)};
+    for (std::size_t i = 1; i < 4; ++i) {
+      const T across = laterals[first + i] - laterals[first + i - 1];
+      const T up = values[first + i] - values[first + i - 1];
+      arc[i] = arc[i - 1] + sqrt(T(across * across + up * up));
+    }
+    // The third divided difference, of which a parabola has none.
+    T difference = T(0), squares = T(0);
+    for (std::size_t i = 0; i < 4; ++i) {
+      T weight = T(1);
+      for (std::size_t j = 0; j < 4; ++j) {
+        if (j != i) weight *= arc[3] / (arc[i] - arc[j]);
+      }
+      difference += weight * values[first + i];
+      squares += weight * weight;
+    }
+    const T residual = detail::magnitude(T(difference / sqrt(squares)));
+    if (is_finite(residual)) residuals.push_back(residual);
+  }
+  if (residuals.empty()) return T(0);
+  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
+  std::nth_element(residuals.begin(), middle, residuals.end());
+  return *middle / constant<T>(0.6744897501960817L);  // the normal distribution's median deviation
+}
 
 /// What came of the points.
 template <Real T>
