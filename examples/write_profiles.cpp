@@ -1,9 +1,13 @@
 // Writes the files of profiles/: nominal profiles, sampled, and worn ones made from them. What each
 // is, with its numbers, stands in profiles/README.md. The bytes are the same on every run.
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>

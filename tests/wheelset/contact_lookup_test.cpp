@@ -373,19 +373,6 @@ TEST_CASE("ContactLookup: an error names the option, its value and the rule",
       Contains("nodes") && Contains("at most 10000000"));
 }
 
-TEST_CASE("LookupAxis: every place is in its interval, bounds and nodes too", "[wheelset]") {
-  const auto axis = detail::LookupAxis<double>::of({-0.008, 0.008, 0.25e-3}, "shift", "[m]");
-  REQUIRE(axis.intervals() == 64);
-  for (int i = 0; i < axis.nodes(); ++i) {
-    const auto place = axis.place(axis.node(i));
-    CHECK(place.index == std::min(i, 63));
-    CHECK(place.fraction == (i == 64 ? 1.0 : 0.0));
-  }
-  CHECK(detail::LookupAxis<double>::of({0.0, 1.0, 0.3}, "shift", "[m]").intervals() == 4);
-  CHECK(axis.place(std::nextafter(0.008, 1.0)).index == -1);
-  CHECK(axis.place(std::nextafter(-0.008, -1.0)).index == -1);
-}
-
 TEST_CASE("ContactLookup: a scalar that converts to nothing, to the last bit",
           "[wheelset][autodiff]") {
   using S = wheelrail_test::StrictScalar;

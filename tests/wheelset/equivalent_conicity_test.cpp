@@ -333,7 +333,7 @@ TEST_CASE("equivalent_conicity: what an amplitude has not got is a status", "[wh
   CHECK(equivalent_conicity(cylinder, 1e-3).conicity == 0.0);
   for (const auto status :
        {ConicityStatus::found, ConicityStatus::out_of_range, ConicityStatus::no_equilibrium,
-        ConicityStatus::not_restoring, ConicityStatus::not_finite}) {
+        ConicityStatus::not_restoring, ConicityStatus::not_converged, ConicityStatus::not_finite}) {
     CHECK(std::string(name_of(status)) != "unknown");
   }
 }

@@ -91,7 +91,9 @@ class Rail {
   using ProfileType = P;
 
   explicit Rail(P profile)
-      : profile_(std::move(profile)), is_convex_(detail::is_convex(profile_, constant<T>(1e-6L))) {
+      : profile_(std::move(profile)),
+        is_convex_(detail::is_convex(profile_,
+                                     detail::max(constant<T>(1e-6L), T(T(256) * epsilon<T>())))) {
     constexpr int intervals = 256;
     const T corner = T(256) * epsilon<T>();
     bool nowhere_concave = HasDerivativeBounds<P>;
@@ -131,7 +133,8 @@ class Rail {
   /// Whether it is convex for certain: the profile's derivative bounds say so, and its corners are
   /// concave by rounding at most.
   [[nodiscard]] bool is_proved_convex() const { return is_proved_convex_; }
-  /// Tangents of the profile where it is convex; otherwise none.
+  /// Tangents of the profile where it is convex; otherwise none. Where it is not proved convex, it may
+  /// rise above one by the jumps of its slope that pass, 1e-6 of its width each.
   [[nodiscard]] const SupportingLines<T>& supporting_lines() const { return supporting_lines_; }
   /// Differs for rails of different profiles, but for chance [m].
   [[nodiscard]] const T& checksum() const { return checksum_; }

@@ -13,7 +13,7 @@ namespace wheelrail {
 /// A line that a whole profile lies under: normal . point <= height, for its points (lateral, up).
 template <Real T>
 struct SupportingLine {
-  Vector2<T> normal{T(0), T(0)};  ///< outward: (lateral, up); zero: none
+  Vector2<T> normal{T(0), T(0)};  ///< outward: (lateral, up)
   T height{};                     ///< [m]
 };
 

@@ -103,6 +103,7 @@ enum class ConicityStatus {
   out_of_range,    ///< the rolling radius difference is not known as far as this amplitude reaches
   no_equilibrium,  ///< the difference does not pass 0 upwards: the wheelset is not centred
   not_restoring,  ///< between the turning points the wheelset is driven outwards: it does not cross
+  not_converged,  ///< the iteration for the middle of the motion did not converge
   not_finite      ///< the amplitude is no positive number
 };
 
@@ -117,6 +118,8 @@ enum class ConicityStatus {
       return "no_equilibrium";
     case ConicityStatus::not_restoring:
       return "not_restoring";
+    case ConicityStatus::not_converged:
+      return "not_converged";
     case ConicityStatus::not_finite:
       return "not_finite";
   }
@@ -223,7 +226,12 @@ template <Real T>
       if (!rises) result.status = ConicityStatus::no_equilibrium;
       return result;
     }
-    middle = bracketed_root<T>(work, first, last, at_first, at_last).position;
+    const auto root = bracketed_root<T>(work, first, last, at_first, at_last);
+    if (root.status != SolveStatus::converged) {
+      result.status = ConicityStatus::not_converged;
+      return result;
+    }
+    middle = root.position;
   }
   result.least_shift = middle - amplitude;
   result.greatest_shift = middle + amplitude;

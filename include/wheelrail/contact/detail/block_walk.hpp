@@ -407,6 +407,7 @@ class BlockWalk {
       if (!item.is_left) continue;
       results[item.index] =
           find_contact<P, R>(wheel_, rail_, placements_.at(item.index), options_, nullptr);
+      results[item.index].evaluations += item.evaluations;
     }
   }
 

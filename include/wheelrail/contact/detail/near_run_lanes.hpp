@@ -3,6 +3,7 @@
 // May include: core, numerics, profile, surface, contact/placement.
 
 #include <wheelrail/contact/detail/locus_strip_lanes.hpp>
+#include <wheelrail/contact/detail/near_runs.hpp>
 
 namespace wheelrail::detail {
 
@@ -15,7 +16,7 @@ void for_each_near_run(const Wheel<P>& wheel, const Rail<R>& rail,
   using T = typename P::Scalar;
   const auto& nodes = wheel.strips().nodes();
   const auto& lines = rail.supporting_lines();
-  const int widest = rail.is_convex() ? 16 : 0;
+  const int widest = rail.is_convex() ? widest_above_own_line : 0;
   const Lanes<T> axle_lateral = at.cos_roll * at.cos_yaw, axle_up = at.sin_roll * at.cos_yaw;
   const Lanes<T> fold = at.sin_yaw * at.tan_yaw;
   Lanes<T> along = Lanes<T>::Zero(),
@@ -23,8 +24,8 @@ void for_each_near_run(const Wheel<P>& wheel, const Rail<R>& rail,
   Lanes<T> height = Lanes<T>::Constant(T(1) / epsilon<T>());  // n.(P - o) [m]
   // The node that a lane looks at next; a node before it was left out there.
   Lanes<T> resume = Lanes<T>::Zero();
-  const Lanes<T> finest =
-      T(1) + T(3) * less<T>(at.tan_yaw * at.tan_yaw, all_lanes(constant<T>(1e-4L)));
+  const Lanes<T> finest = T(1) + T(finest_node - 1) * less<T>(at.tan_yaw * at.tan_yaw,
+                                                              all_lanes(small_squared_tan_yaw<T>));
   const Lanes<T> limit = all_lanes(threshold);
   std::array<int, lane_count> first{}, last{};  // of the run so far: empty
   // Flags of the lanes whose line does not keep the node off the rail.
@@ -53,7 +54,8 @@ void for_each_near_run(const Wheel<P>& wheel, const Rail<R>& rail,
                       });
       const Lanes<T> new_along = normal_lateral * axle_lateral + normal_up * axle_up;
       along = choose<T>(is_kept, new_along, along);
-      across = choose<T>(is_kept, (T(1) - new_along * new_along).sqrt(), across);
+      const Lanes<T> other = normal_lateral * axle_up - normal_up * axle_lateral;
+      across = choose<T>(is_kept, (other * other + at.sin_yaw * at.sin_yaw).sqrt(), across);
       height = choose<T>(
           is_kept, line_height - normal_lateral * at.lateral_rail - normal_up * at.up_rail, height);
       is_kept = is_kept * is_near(node);

@@ -7,6 +7,14 @@
 
 namespace wheelrail::detail {
 
+// Nodes over more strips than this mostly have parts that no line is below: none is looked up.
+inline constexpr int widest_above_own_line = 16;
+// A node over so few is not divided further where the yaw is small: what lies in it costs less than
+// its parts' tests. Where the yaw is greater, its bounds are so loose that finer runs pay.
+inline constexpr int finest_node = 4;
+template <Real T>
+inline constexpr T small_squared_tan_yaw = constant<T>(1e-4L);
+
 // The runs of strips that no line above the rail keeps off it.
 template <Profile P, Profile R>
 class NearRuns {
@@ -31,9 +39,9 @@ class NearRuns {
     const auto& nodes = wheel_.strips().nodes();
     const std::size_t end = nodes.size();
     const T limit = threshold_ - clearance;
-    // Wider nodes have mostly parts that no line is below.
-    const int widest = rail_.is_convex() ? 16 : 0;
-    const int finest = placement_.tan_yaw * placement_.tan_yaw < constant<T>(1e-4L) ? 4 : 1;
+    const int widest = rail_.is_convex() ? widest_above_own_line : 0;
+    const T squared_tan_yaw = placement_.tan_yaw * placement_.tan_yaw;
+    const int finest = squared_tan_yaw < small_squared_tan_yaw<T> ? finest_node : 1;
     Line line;                // the last one that was looked at
     int first = 0, last = 0;  // of the run so far: empty
     for (std::size_t index = 0; index < end;) {
@@ -95,7 +103,9 @@ class NearRuns {
   [[nodiscard]] Line line(const SupportingLine<T>& line) const {
     using std::sqrt;
     const T along = line.normal.x() * axle_lateral_ + line.normal.y() * axle_up_;
-    return {along, sqrt(T(T(1) - along * along)),
+    // The other part of the axle's direction, which 1 - (n.a)^2 would lose where the line is steep.
+    const T other = line.normal.x() * axle_up_ - line.normal.y() * axle_lateral_;
+    return {along, sqrt(T(other * other + placement_.sin_yaw * placement_.sin_yaw)),
             line.height - line.normal.x() * placement_.position_rail.y() -
                 line.normal.y() * placement_.position_rail.z()};
   }
