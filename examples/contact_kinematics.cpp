@@ -1,11 +1,6 @@
 // Rigid contact kinematics of a wheelset on a straight track, of profiles by name or from files:
 // contact points, rolling radius difference and equivalent conicity as CSV, and their picture.
 
-// g++ 12 at -O3 takes a vector of the smoothing spline for memory that is not from new.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wfree-nonheap-object"
-#endif
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -72,7 +67,7 @@ wheelrail::KinematicsRange<double> range_of(const Shifts& shifts) {
   wheelrail::KinematicsRange<double> range;
   range.lower = 1e-3 * shifts.from;
   range.upper = 1e-3 * shifts.to;
-  range.step = half_width / half_count * (1 + 1e-14);
+  range.step = half_width / half_count;
   return range;
 }
 

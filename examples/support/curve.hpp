@@ -5,6 +5,7 @@
 
 #include <wheelrail/track/nodal_track.hpp>
 
+#include "output.hpp"
 #include "profiles.hpp"
 #include "vehicle_run.hpp"
 

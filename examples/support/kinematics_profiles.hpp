@@ -152,13 +152,13 @@ namespace detail {
                        : format(", %.4g mm", 1e3 * finding.measure));
 }
 
-// The level that is given; or, where the points tell of one above a nanometre, a tenth more than it,
-// which keeps nearly all rails convex (SplineFitOptions); otherwise none: they are interpolated.
+// The level that is given; or that which the points tell of, where it is above a nanometre;
+// otherwise none: they are interpolated.
 [[nodiscard]] inline double noise_of(const wheelrail::ProfilePoints<double>& points,
                                      const FileOptions& options) {
   if (options.noise) return *options.noise;
   const double estimate = wheelrail::estimated_noise(points.lateral, points.value);
-  return estimate < 1e-9 ? 0.0 : 1.1 * estimate;
+  return estimate < 1e-9 ? 0.0 : estimate;
 }
 
 // The points to go on with. Without repair nothing may be wrong with them but zig-zags that the
@@ -181,18 +181,23 @@ namespace detail {
     return std::move(repair.points);
   }
   std::size_t defects = 0;
+  bool is_repairable = true;
   std::string first;
   for (const auto& finding : wheelrail::diagnose_points(points)) {
     const bool is_noise = finding.defect == wheelrail::PointDefect::zig_zag &&
                           finding.measure < 6 * noise_of(points, options);
     if (is_noise) continue;
-    if (defects++ == 0) first = described(finding, points);
+    // The first that stands in the way of a repair, or else the first.
+    const bool is_graver = is_repairable && !wheelrail::is_repairable(finding.defect);
+    if (defects++ == 0 || is_graver) first = described(finding, points);
+    if (is_graver) is_repairable = false;
   }
   if (defects > 0) {
     throw std::invalid_argument(
-        format("%zu defects in the points, but there must be none: ", defects)
+        format("defects in the points: %zu, but there must be none: ", defects)
             .append(first)
-            .append(" (--repair drops what can be dropped)"));
+            .append(is_repairable ? " (--repair drops such points)"
+                                  : " (no --repair can mend that)"));
   }
   return points;
 }

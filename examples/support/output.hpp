@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <stdexcept>
 #include <string>
+#include <wheelrail/io/detail/whole_file.hpp>
 
 namespace examples {
 
@@ -46,16 +47,11 @@ inline std::filesystem::path prepare_directory(const std::string& name) {
   return name;
 }
 
-// Writes to a neighbouring file first and renames it: a reader never sees half a file.
+// A reader never sees half a file.
 inline void write_file(const std::filesystem::path& path, const std::string& text) {
-  std::filesystem::path part = path;
-  part += ".part";
-  std::ofstream file(part, std::ios::binary);
-  file << text;
-  file.close();
-  std::error_code error;
-  if (file.good()) std::filesystem::rename(part, path, error);
-  if (!file.good() || error) throw std::runtime_error("cannot write " + path.string());
+  if (!wheelrail::detail::write_whole_file(path, text)) {
+    throw std::runtime_error("cannot write " + path.string());
+  }
 }
 
 }  // namespace examples

@@ -11,7 +11,7 @@ namespace examples {
 
 // The deepest patch of a wheel; null when it does not touch.
 [[nodiscard]] inline const wheelrail::PatchForce<double>* main_patch(
-    const wheelrail::WheelForces<double>& wheel) {
+    const WheelsetRecord::Wheel& wheel) {
   const wheelrail::PatchForce<double>* deepest = nullptr;
   for (const auto& patch : wheel.patches) {
     if (deepest == nullptr || deepest->patch.penetration < patch.patch.penetration) {
@@ -22,7 +22,7 @@ namespace examples {
 }
 
 // The magnitude of all normal forces on a wheel [N].
-[[nodiscard]] inline double normal_force_of(const wheelrail::WheelForces<double>& wheel) {
+[[nodiscard]] inline double normal_force_of(const WheelsetRecord::Wheel& wheel) {
   double sum = 0;
   for (const auto& patch : wheel.patches) sum += patch.contact.normal;
   return sum;

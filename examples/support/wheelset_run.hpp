@@ -2,6 +2,7 @@
 // A single wheelset running on a tangent track (§6.1 of the paper): the equations of motion, the
 // run, and what is recorded of it.
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -40,14 +41,16 @@ struct WheelsetCase {
 // its flange stands on the rail head.
 constexpr double greatest_flange_contact = 0.016;
 
-// What finds the patches that are recorded: the same, with their zones' ends.
-template <class Search>
-[[nodiscard]] const Search& recording_search(const Search& search) {
+// What finds the patches that are recorded: the same, with their zones' ends. Its memory is its own
+// and goes from report to report.
+template <class Wheelset, class Search>
+[[nodiscard]] Search recording_search(const Wheelset&, const Search& search) {
   return search;
 }
-[[nodiscard]] inline wheelrail::StripSearch<double> recording_search(
-    const wheelrail::WarmStripSearch<double>&) {
-  return {};
+template <class Wheelset>
+[[nodiscard]] wheelrail::WarmStripSearch<double> recording_search(
+    const Wheelset& wheelset, const wheelrail::WarmStripSearch<double>&) {
+  return wheelrail::WarmStripSearch<double>(wheelset);
 }
 
 // The equations of motion of a wheelset on a track; world and track frame are the same.
@@ -153,12 +156,26 @@ class WheelsetOnTrack {
   long failures_ = 0;
 };
 
-// One reported instant.
+// One reported instant. Lists of the length that they need: new pages of memory for the longest
+// took longer than an evaluation.
 struct WheelsetRecord {
+  struct Wheel {
+    std::vector<wheelrail::PatchForce<double>> patches;
+    wheelrail::Vector3<double> force_track;  // the sum over the patches [N]
+  };
+  struct Forces {
+    std::array<Wheel, 2> wheels;  // ordered as `sides`
+
+    [[nodiscard]] const Wheel& wheel(Side side) const { return wheels[index_of(side)]; }
+  };
+  [[nodiscard]] static Wheel kept(const wheelrail::WheelForces<double>& wheel) {
+    return {{wheel.patches.begin(), wheel.patches.end()}, wheel.force_track};
+  }
+
   double time;  // [s]
   wheelrail::RigidBodyState<double> state;
   wheelrail::Vector3<double> axle_track;
-  wheelrail::WheelsetForces<double> forces;
+  Forces forces;
 
   [[nodiscard]] double lateral_shift() const { return state.position_world.y(); }
   [[nodiscard]] double yaw() const { return std::atan2(-axle_track.x(), axle_track.y()); }
@@ -184,7 +201,7 @@ template <class Wheelset, class Track, class Search>
     const Search& search, const WheelsetCase& run,
     const std::function<void(double)>& progress = [](double) {}) {
   WheelsetOnTrack system(wheelset, track, model, search, run);
-  auto recorder = recording_search(search);
+  auto recorder = recording_search(wheelset, search);
   const State start = pack(system.start(run));
   WheelsetHistory history;
   history.records.reserve(static_cast<std::size_t>(run.duration / run.report_interval) + 2);
@@ -193,8 +210,12 @@ template <class Wheelset, class Track, class Search>
       system, 0.0, start, run.duration, run.report_interval, run.integrator,
       [&](double t, const State& y) {
         const auto state = wheelrail::unpack_rigid_body(y);
+        const auto forces = system.forces_by(recorder, state);
         history.records.push_back(
-            {t, state, system.position(state).axle_track, system.forces_by(recorder, state)});
+            {t,
+             state,
+             system.position(state).axle_track,
+             {WheelsetRecord::kept(forces.wheels[0]), WheelsetRecord::kept(forces.wheels[1])}});
         progress(t);
         return true;
       });

@@ -1,14 +1,18 @@
 #pragma once
 /// @file
-/// All of wheelrail but the rigid bodies (dynamics/), files (io/) and the integrator of numerics/.
+/// All of wheelrail but the rigid bodies (dynamics/), files (io/), the integrator of numerics/ and
+/// wheelset/contact_linearization.hpp, which needs Eigen's eigenvalues.
 /// Frames, axes, signs and units are in conventions.hpp.
 
 #include <wheelrail/contact/find_contact_batch.hpp>
 #include <wheelrail/contact/minimum_distance.hpp>
 #include <wheelrail/conventions.hpp>
+#include <wheelrail/core/dual.hpp>
 #include <wheelrail/force/contact_force.hpp>
+#include <wheelrail/force/contact_force_jacobian.hpp>
 #include <wheelrail/profile/convex_modification.hpp>
 #include <wheelrail/profile/inspection.hpp>
+#include <wheelrail/profile/noise_estimate.hpp>
 #include <wheelrail/profile/profile_points.hpp>
 #include <wheelrail/profile/rail_head.hpp>
 #include <wheelrail/profile/s1002.hpp>
@@ -17,6 +21,7 @@
 #include <wheelrail/track/irregularities.hpp>
 #include <wheelrail/track/nodal_track.hpp>
 #include <wheelrail/track/tangent_track.hpp>
+#include <wheelrail/version.hpp>
 #include <wheelrail/wheelset/contact_lookup.hpp>
 #include <wheelrail/wheelset/contact_lookup_report.hpp>
 #include <wheelrail/wheelset/equivalent_conicity.hpp>

@@ -12,6 +12,7 @@
 #include <wheelrail/profile/convex_modification.hpp>
 #include <wheelrail/profile/rail_head.hpp>
 #include <wheelrail/profile/s1002.hpp>
+#include <wheelrail/profile/spline_profile.hpp>
 
 #include "support/allocation_counter.hpp"
 #include "support/catch.hpp"
@@ -210,6 +211,25 @@ TEST_CASE("find_contacts: what find_contact finds at each of many random placeme
     CHECK(found.patches > 2900);
     CHECK(found.penetration <= penetration_rounding<double>());
   }
+  SECTION("of a wheel and on a rail from points") {
+    std::vector<double> wheel_laterals, wheel_values, rail_laterals, rail_values;
+    for (int i = 0; i <= 240; ++i) {
+      wheel_laterals.push_back(-0.062 + i * 5e-4);
+      wheel_values.push_back(pair.wheel.profile().evaluate(wheel_laterals.back()).value);
+      rail_laterals.push_back(0.0349 * std::sin((i - 120) * pi<double>() / 240));
+      rail_values.push_back(pair.rail.profile().evaluate(rail_laterals.back()).value);
+    }
+    using Spline = SplineProfile<double>;
+    const Wheel<Spline> from_points(Spline(wheel_laterals, wheel_values, {.noise = 0}), 0.43);
+    const Rail<Spline> rail(Spline(rail_laterals, rail_values, {.noise = 0}));
+    REQUIRE(rail.is_proved_convex());
+    const std::vector<WheelPlacement<double>> few(placements.begin(), placements.begin() + 1000);
+    const auto found = difference(from_points, rail, few);
+    CHECK(found.others == 0);
+    CHECK(found.patches > 900);
+    CHECK(found.penetration <= penetration_rounding<double>());
+    CHECK(found.wheel_lateral < 1e-12);
+  }
   SECTION("on a rail without a closed form") {
     const Rail<Real_> swept(s1002<double>());  // concave, too
     const std::vector<WheelPlacement<double>> few(placements.begin(), placements.begin() + 20);
@@ -290,6 +310,24 @@ TEST_CASE("find_contacts: a placement that is not finite spoils its own result o
   for (const auto& result : find_contacts(pair.wheel, pair.rail, batch_of(placements), bad)) {
     CHECK(result.status == SearchStatus::not_finite);
   }
+}
+
+TEST_CASE("find_contacts: with blending, what find_contact finds", "[contact]") {
+  const Pair pair;
+  auto placements = pair.placements(200);
+  placements[7].sin_yaw = std::numeric_limits<double>::quiet_NaN();
+  const SearchOptions<double> options{.blending_length = 3e-3};
+  const auto found = find_contacts(pair.wheel, pair.rail, batch_of(placements), options, 2);
+  int blended = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto single = find_contact(pair.wheel, pair.rail, placements[i], options);
+    REQUIRE(is_same(found[i], single));
+    for (std::size_t k = 0; k < single.patches.size(); ++k) {
+      CHECK(found[i].patches[k].share == single.patches[k].share);
+      blended += single.patches[k].share < 1;
+    }
+  }
+  CHECK(blended > 0);
 }
 
 TEST_CASE("find_contacts: no placements, and calls that cannot be", "[contact][bad-input]") {

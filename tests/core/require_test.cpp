@@ -1,4 +1,5 @@
 #include <limits>
+#include <stdexcept>
 #include <wheelrail/core/require.hpp>
 
 #include "support/catch.hpp"
@@ -30,6 +31,12 @@ TEST_CASE("require: the message has the name, the value and the broken rule", "[
                     "a length is 0.125, but must be > 2 [m]");
   CHECK_THROWS_WITH(detail::require(false, "a length", -1234567.5F, "> 2 [m]"),
                     "a length is -1234567.5, but must be > 2 [m]");
+}
+
+TEST_CASE("throw_or_abort: throws what it is told to, with the message", "[core][bad-input]") {
+  CHECK_THROWS_AS(detail::throw_or_abort("x"), std::invalid_argument);
+  CHECK_THROWS_AS(detail::throw_or_abort<std::runtime_error>("x"), std::runtime_error);
+  CHECK_THROWS_WITH(detail::throw_or_abort<std::runtime_error>("a 100% loss"), "a 100% loss");
 }
 
 TEST_CASE("require_finite: refuses NaN and both infinities", "[core][bad-input]") {

@@ -64,8 +64,6 @@ MeanForces mean_forces(const VehicleHistory& history, std::size_t wheelsets, dou
 }
 
 using RealWheelset = Wheelset<RealWheel>;
-using StraightVehicle =
-    VehicleOnTrack<RealWheelset, TangentTrack<examples::RailHead>, StripSearch<double>>;
 
 // What a VehicleOnTrack keeps references to.
 struct World {
@@ -74,7 +72,7 @@ struct World {
   ContactForceModel<double> model;
   StripSearch<double> search;
 
-  [[nodiscard]] StraightVehicle put_on(const Vehicle& vehicle) const {
+  [[nodiscard]] VehicleOnTrack put_on(const Vehicle& vehicle) const {
     return {vehicle, wheelset, track, model, search};
   }
 };

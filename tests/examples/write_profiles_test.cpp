@@ -49,7 +49,7 @@ Points points_of(const std::string& name) {
 // Through the points, or where there is noise, at the level that README.md gives.
 Spline spline_of(const std::string& name) {
   const Points points = repair_points(points_of(name)).points;
-  return Spline(points.lateral, points.value, {.noise = is_measured(name) ? 1.1e-5 : 0.0});
+  return Spline(points.lateral, points.value, {.noise = is_measured(name) ? 1e-5 : 0.0});
 }
 
 // How far each point lies from that of the unworn file with the same number.

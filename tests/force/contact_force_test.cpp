@@ -74,6 +74,25 @@ TEST_CASE("ContactForceModel: no friction, no creep force; no penetration, no fo
   CHECK(none.creep.lateral == 0.0);
 }
 
+TEST_CASE("ContactForceModel: without_kinks() sets what rounds the kinks off, and no more",
+          "[force]") {
+  ContactForceOptions<double> options;
+  options.hertz.minimum_lateral_curvature = 0.5;
+  options.friction_coefficient = 0.3;
+  const auto smooth = without_kinks(options);
+  CHECK(smooth.hertz.bound_width == 0.5);
+  CHECK(smooth.creepage_rounding == 1e-4);
+  CHECK(smooth.friction_coefficient == 0.3);
+  // It reaches the law: lateral creepage and no spin is where (86) has a kink.
+  auto contact = worked_contact();
+  contact.forward_speed = contact.speed = 10;
+  contact.lateral_velocity = 1e-3;
+  const double sharp = ContactForceModel<double>(options)(contact).creep.lateral;
+  const double round = ContactForceModel<double>(smooth)(contact).creep.lateral;
+  CHECK(sharp != round);
+  CHECK(round == Approx(sharp).epsilon(0.02));
+}
+
 TEST_CASE("ContactForceModel: options out of range are named", "[force][bad-input]") {
   using Catch::Matchers::Contains;
   const auto with = [](auto change) {
@@ -87,6 +106,9 @@ TEST_CASE("ContactForceModel: options out of range are named", "[force][bad-inpu
                     Contains("restitution") && Contains("1.5"));
   CHECK_THROWS_WITH(with([](auto& o) { o.constant_stiffness = -1; }),
                     Contains("constant stiffness is -1"));
+  CHECK_THROWS_WITH(with([](auto& o) { o.creepage_rounding = -1e-5; }),
+                    Contains("creepage rounding is -1e-05"));
+  CHECK_THROWS_WITH(with([](auto& o) { o.hertz.bound_width = -1; }), Contains("bound width is -1"));
   CHECK_THROWS_WITH(with([](auto& o) { o.hertz.minimum_lateral_curvature = 0; }),
                     Contains("minimum lateral curvature is 0"));
   CHECK_THROWS_WITH(with([](auto& o) { o.wheel.young_modulus = -1; }), Contains("Young"));

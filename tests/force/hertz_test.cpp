@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -196,6 +197,26 @@ TEST_CASE("hertz_shape: a lateral curvature below the bound is bounded and repor
   CHECK(other.status == HertzStatus::lateral_curvature_bounded);
   CHECK(other.curvature_sum == 1.66);
   CHECK(std::string(name_of(other.status)) == "lateral_curvature_bounded");
+}
+
+TEST_CASE("hertz_shape: with a width, the bound is approached without a kink", "[force]") {
+  const HertzOptions<double> options{.minimum_lateral_curvature = 0.25, .bound_width = 0.2};
+  const auto sum = [&](double lateral) {
+    return hertz_shape<double>({1.16, lateral}, options).curvature_sum - 1.16;
+  };
+  CHECK(sum(-3.0) == Approx(0.25));
+  CHECK(sum(0.05) == Approx(0.25));
+  CHECK(sum(0.25) == Approx(0.25 + 0.2 / 4));
+  CHECK(sum(0.4501) == Approx(0.4501));
+  // Slopes from 0 to 1, as a parabola has them.
+  for (const double lateral : {0.0, 0.05, 0.1, 0.25, 0.4, 0.45, 0.5}) {
+    CAPTURE(lateral);
+    const double slope = (sum(lateral + 1e-7) - sum(lateral - 1e-7)) / 2e-7;
+    CHECK(slope == Approx(std::clamp((lateral - 0.05) / 0.4, 0.0, 1.0)).margin(1e-6));
+  }
+  CHECK(hertz_shape<double>({1.16, 0.24}, options).status ==
+        HertzStatus::lateral_curvature_bounded);
+  CHECK_THROWS_AS(validate(HertzOptions<double>{.bound_width = -0.1}), std::invalid_argument);
 }
 
 TEST_CASE("hertz_shape: what is no contact gives a status and no number", "[force][bad-input]") {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <unsupported/Eigen/AutoDiff>
+#include <wheelrail/core/dual.hpp>
 #include <wheelrail/force/polach.hpp>
 
 #include "support/allocation_counter.hpp"
@@ -195,6 +195,32 @@ TEST_CASE("polach_force: continuous at vanishing creepage, with and without spin
   }
 }
 
+TEST_CASE("polach_force: with creepages rounded off, no kink where (86) has one", "[force]") {
+  // |xi_y| = |xi_y + a phi| at xi_y = -a phi / 2, and at phi = 0.
+  auto contact = example<double>();
+  const double spin = 0.4, kink = -contact.ellipse.a * spin / 2;
+  const auto turn = [&](double lateral, double about, bool by_spin) {
+    const auto force = [&](double by) {
+      return by_spin ? polach_force<double>({5e-4, lateral, about + by / 6e-3}, contact).lateral
+                     : polach_force<double>({5e-4, about + by, spin}, contact).lateral;
+    };
+    // By how much the difference quotient changes at the kink, in parts of itself.
+    const double step = 1e-7;
+    const double before = force(0) - force(-step), after = force(step) - force(0);
+    return std::abs(after - before) / std::abs(after);
+  };
+  const auto sharp = polach_force<double>({5e-4, 1e-3, 0.1}, contact);
+  CHECK(turn(0, kink, false) > 0.01);
+  CHECK(turn(1e-3, 0, true) > 0.01);
+  contact.creepage_rounding = 1e-4;
+  CHECK(turn(0, kink, false) < 1e-3);
+  CHECK(turn(1e-3, 0, true) < 1e-3);
+  const auto round = polach_force<double>({5e-4, 1e-3, 0.1}, contact);
+  CHECK(round.longitudinal == Approx(sharp.longitudinal).epsilon(0.01));
+  CHECK(round.lateral == Approx(sharp.lateral).epsilon(0.01));
+  CHECK(polach_force<double>({0, 0, 0}, contact).lateral == 0);
+}
+
 TEST_CASE("polach_force: continuous where the series takes over", "[force]") {
   // Around eps^8 = the rounding unit of double, eps^2 = 1.2e-4.
   for (const double s : {0.5e-4, 1.2e-4, 1.3e-4, 3e-4}) {
@@ -229,7 +255,7 @@ TEST_CASE("polach_force: no force or no friction is exactly nothing", "[force][b
 TEST_CASE("polach_force: automatic derivatives from curvatures and slip to forces",
           "[force][autodiff]") {
   // Lateral curvature, normal force, creepages and spin: through Hertz, Kalker and Polach.
-  using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 5, 1>>;
+  using Number = wheelrail::Dual<double, 5>;
   const auto chain = []<class T>(const std::array<T, 5>& x, T) {
     const MaterialPair<T> steels;
     const KalkerTable<T> table(steels.poisson_ratio());
@@ -241,12 +267,10 @@ TEST_CASE("polach_force: automatic derivatives from curvatures and slip to force
                                          {1.0, 2e4, 1e-4, 2e-3, -0.1},
                                          {35, 8e4, -5e-3, 1e-3, 1.0},
                                          {0.2, 8e4, -5e-4, 1e-3, 0.5}}) {
-    std::array<Dual, 5> dual;
-    for (int i = 0; i < 5; ++i) {
-      dual[static_cast<std::size_t>(i)] = Dual(at[static_cast<std::size_t>(i)], 5, i);
-    }
-    const auto lifted = chain(dual, Dual(0));
-    CHECK(lifted.lateral.value() == chain(at, 0.0).lateral);
+    std::array<Number, 5> dual;
+    for (std::size_t i = 0; i < 5; ++i) dual[i] = Number(at[i], i);
+    const auto lifted = chain(dual, Number(0));
+    CHECK(lifted.lateral.value == Approx(chain(at, 0.0).lateral).epsilon(1e-13));
     for (std::size_t i = 0; i < 5; ++i) {
       CAPTURE(at[0], i);
       const auto along = [&](auto member) {
@@ -258,27 +282,27 @@ TEST_CASE("polach_force: automatic derivatives from curvatures and slip to force
             },
             at[i], 1e-3 * std::abs(at[i]));
       };
-      const auto n = static_cast<Eigen::Index>(i);
       const double scale = 12500 / std::abs(at[i]);
-      CHECK(lifted.longitudinal.derivatives()(n) ==
+      CHECK(lifted.longitudinal.derivatives[i] ==
             Approx(along(&CreepForce<double>::longitudinal)).epsilon(1e-8).margin(1e-10 * scale));
-      CHECK(lifted.lateral.derivatives()(n) ==
+      CHECK(lifted.lateral.derivatives[i] ==
             Approx(along(&CreepForce<double>::lateral)).epsilon(1e-8).margin(1e-10 * scale));
     }
   }
 }
 
 TEST_CASE("polach_force: the derivatives at rest are Kalker's coefficients", "[force][autodiff]") {
-  using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 3, 1>>;
+  using Number = wheelrail::Dual<double, 3>;
   const auto contact = example<double>();
   const double stiffness = contact.shear_modulus * 6e-3 * 4.5e-3;
-  const auto f = polach_force<Dual>({Dual(0, 3, 0), Dual(0, 3, 1), Dual(0, 3, 2)}, example<Dual>());
-  CHECK(f.longitudinal.derivatives()(0) == Approx(-stiffness * contact.kalker.c11).epsilon(1e-14));
-  CHECK(f.longitudinal.derivatives()(1) == 0);
-  CHECK(f.longitudinal.derivatives()(2) == 0);
-  CHECK(f.lateral.derivatives()(0) == 0);
-  CHECK(f.lateral.derivatives()(1) == Approx(-stiffness * contact.kalker.c22).epsilon(1e-14));
-  CHECK(f.lateral.derivatives()(2) ==
+  const auto f =
+      polach_force<Number>({Number(0, 0), Number(0, 1), Number(0, 2)}, example<Number>());
+  CHECK(f.longitudinal.derivatives[0] == Approx(-stiffness * contact.kalker.c11).epsilon(1e-14));
+  CHECK(f.longitudinal.derivatives[1] == 0);
+  CHECK(f.longitudinal.derivatives[2] == 0);
+  CHECK(f.lateral.derivatives[0] == 0);
+  CHECK(f.lateral.derivatives[1] == Approx(-stiffness * contact.kalker.c22).epsilon(1e-14));
+  CHECK(f.lateral.derivatives[2] ==
         Approx(-stiffness * std::sqrt(2.7e-5) * contact.kalker.c23).epsilon(1e-14));
 }
 

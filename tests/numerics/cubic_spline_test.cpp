@@ -190,6 +190,27 @@ TEST_CASE("CubicSpline: vectors are interpolated component by component",
   }
 }
 
+TEST_CASE("CubicSpline: the first columns alone are those of the whole, bit for bit",
+          "[numerics][cubic_spline]") {
+  using Node = Eigen::Matrix<double, 2, 3, Eigen::DontAlign>;
+  std::vector<Node> values;
+  for (const double x : uneven) {
+    Node node;
+    node << cubic(x), wave(x), x * x, wave(2 * x), -x, cubic(-x);
+    values.push_back(node);
+  }
+  const CubicSpline<double, Node> spline(uneven, values);
+  for (const double x : {-2.0, -1.0, -0.8, 0.2, 0.21, 3.0, 4.0, 5.0}) {
+    const auto whole = spline.evaluate(x);
+    const auto all = spline.evaluate_columns<3>(x);
+    const auto two = spline.evaluate_columns<2>(x);
+    CHECK(all.value == whole.value);
+    CHECK(all.slope == whole.slope);
+    CHECK(two.value == whole.value.leftCols<2>());
+    CHECK(two.slope == whole.slope.leftCols<2>());
+  }
+}
+
 TEST_CASE("CubicSpline: queries do not allocate and pass NaN on",
           "[numerics][cubic_spline][no-alloc]") {
   const double nan = std::numeric_limits<double>::quiet_NaN();

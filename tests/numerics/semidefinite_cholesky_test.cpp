@@ -1,4 +1,7 @@
+#include <Eigen/LU>
 #include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <wheelrail/numerics/semidefinite_cholesky.hpp>
@@ -61,6 +64,35 @@ TEST_CASE("SemidefiniteCholesky: finds the rank, and solves what is consistent",
       CHECK((x.array() != 0.0).count() == rank);
     }
   }
+}
+
+TEST_CASE("SemidefiniteCholesky: a size known when compiled changes nothing, nor does pivoting",
+          "[numerics][semidefinite_cholesky][random]") {
+  using Known = SemidefiniteCholesky<double, 5, 5>;
+  Random random;
+  int regular = 0, pivoted = 0, singular = 0;
+  for (int repeat = 0; repeat < 300; ++repeat) {
+    // Rows ever closer to the span of the others, at last within it.
+    Eigen::MatrixXd j = random.matrix(5, 8);
+    const double off = repeat % 3 == 2 ? 0.0 : std::pow(10.0, -4.5 * std::abs(random()));
+    for (Eigen::Index i = 3; i < 5; ++i) {
+      j.row(i) = random.matrix(1, 3) * j.topRows(3) + off * j.row(i);
+    }
+    const Eigen::MatrixXd a = j * j.transpose();
+    const Eigen::VectorXd b = a * random.matrix(5, 1);
+    const Known known{Known::Matrix(a)};
+    const Solver solver{Solver::Matrix(a)};
+    CHECK(known.rank() == solver.rank());
+    CHECK(known.solve(b) == solver.solve(b));
+    const Eigen::VectorXd scale = a.diagonal().cwiseSqrt().cwiseInverse();
+    const double determinant = (scale.asDiagonal() * a * scale.asDiagonal()).determinant();
+    const bool is_far = std::sqrt(epsilon<double>()) < determinant;
+    if (off == 0) CHECK(solver.rank() == 3);
+    if (is_far) CHECK(solver.rank() == 5);
+    if (solver.rank() == 5) CHECK((a * solver.solve(b) - b).norm() < 1e-12 * a.norm());
+    ++(off == 0 ? singular : is_far ? regular : pivoted);
+  }
+  CHECK(std::min({regular, pivoted, singular}) > 30);
 }
 
 TEST_CASE("SemidefiniteCholesky: NaN comes back, nothing is allocated",

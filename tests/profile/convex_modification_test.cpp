@@ -172,6 +172,45 @@ TEST_CASE("ConvexModification: two zones give two corners, also when the profile
   check_modified(modified, 1e-14, 1e-14);
 }
 
+TEST_CASE("ConvexModification: zones with a convex sliver between them are one, in closed form",
+          "[profile]") {
+  // Two bowls of width 1 and second derivative 2, between them a cap of width w and second
+  // derivative -2 k: the slope goes from 0 to 2, down to 2 - 2 k w and up by 2 again. The tangents
+  // at the cap's ends meet k w^2 / 2 above its chord, across that by less.
+  const auto profile = [](double k, double w) {
+    const double slope = 2 - 2 * k * w, value = 1 + 2 * w - k * w * w;
+    return Piecewise(
+        {Piece::polynomial(0, 1, 0, 1, std::vector<double>{0, 0, 1}),
+         Piece::polynomial(1, 1 + w, 1, 1, std::vector<double>{1, 2, -k}),
+         Piece::polynomial(1 + w, 2 + w, 1 + w, 1, std::vector<double>{value, slope, 1})});
+  };
+  const double k = 3, w = 0.1, chord = 2 - k * w;
+  const double height = k * w * w / 2 / std::sqrt(1 + chord * chord);
+  const Piecewise original = profile(k, w);
+  for (const double sliver : {0.0, 0.99 * height}) {
+    const ConvexModification<Piecewise> apart(original, sliver);
+    REQUIRE(apart.corners().size() == 2);
+    CHECK(apart.corners()[0].zone.upper == Approx(1));
+    CHECK(apart.corners()[1].zone.lower == Approx(1 + w));
+  }
+  const ConvexModification<Piecewise> joined(original, 1.01 * height);
+  REQUIRE(joined.corners().size() == 1);
+  CHECK(joined.corners()[0].zone.lower == 0);
+  CHECK(joined.corners()[0].zone.upper == 2 + w);
+  // The tangent at the lower end is 0; the other one is `rise` high with the slope `last` there.
+  const double last = 4 - 2 * k * w, rise = 1 + 2 * w - k * w * w + (2 - 2 * k * w) + 1;
+  CHECK(joined.corners()[0].value == Approx(0).margin(1e-14));
+  CHECK(joined.corners()[0].lateral == Approx(2 + w - rise / last));
+  check_modified(joined, 1e-14, 1e-14);
+  // Where the second zone ends less steep than the first its tangent would cut through this: two.
+  const Piecewise steps = profile(12, 0.1);
+  CHECK(ConvexModification<Piecewise>(steps, 1.0).corners().size() == 2);
+  check_modified(ConvexModification<Piecewise>(steps, 1.0), 1e-14, 1e-14);
+  CHECK_THROWS_WITH(
+      ConvexModification<Piecewise>(original, -1e-6),
+      "convex modification: sliver height is -1e-06, but must be finite and >= 0 [m]");
+}
+
 TEST_CASE("ConvexModification: a convex profile stays as it is", "[profile]") {
   const auto rail = rail_60e1<double>();
   const ConvexModification modified(rail);

@@ -257,7 +257,8 @@ TEST_CASE("SplineProfile: the report says what came of the points", "[profile]")
   const auto& report = spline.report();
   CHECK(report.status == SmoothingStatus::at_noise);
   CHECK(report.noise == 1e-5);
-  CHECK(report.rms_deviation == Approx(1e-5).epsilon(0.01));
+  const double doubled = 2 * static_cast<double>(points.laterals.size());
+  CHECK(report.rms_deviation == Approx(1e-5 * (1 + 2 / std::sqrt(doubled))).epsilon(0.005));
   CHECK(report.greatest_deviation_index == 300);
   CHECK(report.greatest_deviation > 60e-6);
   CHECK(report.greatest_deviation < 100e-6);
@@ -300,38 +301,43 @@ TEST_CASE("SplineProfile: points of the standard profiles give these back",
     for (const Head& head : {uic50<double>(), rail_60e1<double>()}) {
       CHECK(distance(fitted(rail_points(head, spacing)), head).first < bound);
     }
-    // With 10 um of noise: below the noise in the mean; nowhere off by more than three times that.
+    // With 10 um of noise: less than the noise in the mean; nowhere off by more than four times
+    // that: it bends the ends and where the curvature jumps. Of 60 seeds the worst is 26 um off at
+    // 0.1 mm, 43 um at 1 mm.
     for (const unsigned seed : {1U, 2U, 3U}) {
       const auto [wheel, wheel_rms] =
           distance(fitted(wheel_points(spacing, 1e-5, seed), 1e-5), s1002<double>());
       CHECK(wheel_rms < 1e-5);
-      CHECK(wheel < 3e-5);
+      CHECK(wheel < 4e-5);
       for (const Head& head : {uic50<double>(), rail_60e1<double>()}) {
         const auto [rail, rail_rms] =
             distance(fitted(rail_points(head, spacing, 1e-5, seed), 1e-5), head);
         CHECK(rail_rms < 1e-5);
-        CHECK(rail < 3e-5);
+        CHECK(rail < 4e-5);
       }
     }
   }
 }
 
-TEST_CASE("SplineProfile: rails with noise stay convex where the level is a tenth above it",
+TEST_CASE("SplineProfile: rails with noise stay convex, because of the margin",
           "[profile][random]") {
+  int without = 0;
   for (const Head& head : {uic50<double>(), rail_60e1<double>()}) {
-    for (const double spacing : {1e-4, 5e-4}) {
-      int at_level = 0, above = 0;
-      for (unsigned seed = 101; seed <= 120; ++seed) {
+    for (const double spacing : {1e-4, 2e-4, 5e-4, 1e-3}) {
+      for (unsigned seed = 101; seed <= 115; ++seed) {
+        CAPTURE(head.dimensions().width, spacing, seed);
         const Points points = rail_points(head, spacing, 1e-5, seed);
-        if (Rail<Spline>(fitted(points, 1e-5)).is_proved_convex()) ++at_level;
-        if (Rail<Spline>(fitted(points, 1.1e-5)).is_proved_convex()) ++above;
+        CHECK(Rail<Spline>(fitted(points, 1e-5)).is_proved_convex());
+        // The noise of a sample may be above its level; what is missing is made up by waves.
+        const Spline at_level(points.laterals, points.values, {.noise = 1e-5, .margin = 0});
+        CHECK(at_level.report().rms_deviation == Approx(1e-5).epsilon(2e-3));
+        if (Rail<Spline>(at_level).is_proved_convex()) ++without;
       }
-      CAPTURE(head.dimensions().width, spacing);
-      // The noise of a sample may be above its level; what is missing is made up by waves.
-      CHECK(at_level >= 15);
-      CHECK(above == 20);
     }
   }
+  // Of 120.
+  CHECK(without >= 100);
+  CHECK(without < 120);
 }
 
 TEST_CASE("SplineProfile: the nearest point is that of Newton's method", "[profile][random]") {
@@ -375,7 +381,7 @@ TEST_CASE("SplineProfile: sampled S1002 on sampled rails touches as the analytic
         const Spline rail_profile = fitted(rail_points(head, spacing, noise, 12), noise);
         const Wheel<Spline> spline_wheel(wheel_profile, 0.43);
         const Rail<Spline> spline_rail(rail_profile);
-        // Needed for a proof. With noise nine of ten seeds give it, this one among them.
+        // Needed for a proof.
         REQUIRE(spline_rail.is_proved_convex());
         // The depth of a point changes by no more than both profiles do.
         const double doubt = distance(wheel_profile, s1002<double>()).first +
@@ -441,10 +447,11 @@ TEST_CASE("SplineProfile: its convex modification touches as that of the analyti
         const double off = profile.evaluate(u).value - at.value;
         worst = std::max(worst, std::abs(off) / std::sqrt(1 + at.slope * at.slope));
       }
-      // The fillet's corner is where two tangents meet, 48 mm away from where one of them touches, at
-      // an inflection: a slope that is off by 1e-3 there moves it by 50 um, and where noise moves the
-      // inflection itself, that is more.
-      CHECK(worst < (noise == 0 ? 1e-4 : 1e-3));
+      // The fillet's corner is where two tangents meet, 14 mm along the flange's face and 48 mm
+      // along the tread from where they touch. Where the face ends and the fillet begins the
+      // curvature jumps by 77 /m: what smooths 10 um of noise away turns the face by some 8 mrad
+      // there.
+      CHECK(worst < (noise == 0 ? 1e-4 : 2.5e-4));
       const double doubt = worst + distance(rail_profile, head).first + 1e-9;
       for (const auto& pose : poses) {
         const auto expected = find_contact(wheel, rail, pose);
@@ -520,6 +527,8 @@ TEST_CASE("SplineProfile: bad points are named", "[profile][bad-input]") {
         "least 4");
   CHECK(message_of([&] { Spline(laterals, values, {.noise = -1e-6}); }) ==
         "spline profile: noise is -1e-06, but must be finite and >= 0 [m]");
+  CHECK(message_of([&] { Spline(laterals, values, {.margin = -1}); }) ==
+        "spline profile: margin is -1, but must be finite and >= 0 [-]");
   CHECK(message_of([&] { Spline(laterals, values, {.curve_tolerance = nan}); }) ==
         "spline profile: curve tolerance is nan, but must be finite and >= 0 [m]");
   CHECK(message_of([&] {
@@ -554,22 +563,12 @@ TEST_CASE("SplineProfile: bad points are named", "[profile][bad-input]") {
           Spline({0, 0.001, 0.002, 0.002001, 0.002002, 0.003}, {0, 0, 0, 0.001, 0.002, 0.003},
                  {.noise = 0});
         }).find("the slope of the curve is ") != std::string::npos);
+  // What no polynomials follow: below rounding.
+  CHECK(message_of([&] {
+          Spline(laterals, {0, 1e-3, 0, 1e-3, 0}, {.noise = 0, .curve_tolerance = 1e-22});
+        }).find("must be at most the curve tolerance, 1e-22 m") != std::string::npos);
   // What the noise explains may step back.
   Points points = points_of(rail_60e1<double>(), -0.02, 0.02, 2e-5, 1e-5);
   CHECK(!std::is_sorted(points.laterals.begin(), points.laterals.end()));
   CHECK_NOTHROW(Spline(points.laterals, points.values));
-}
-
-TEST_CASE("estimated_noise: that of a sampled profile, and nearly none without",
-          "[profile][random]") {
-  for (const double spacing : {1e-4, 5e-4}) {
-    for (const double noise : {0.0, 1e-6, 1e-5}) {
-      CAPTURE(spacing, noise);
-      const Points wheel = wheel_points(spacing, noise, 21);
-      const double found = estimated_noise(wheel.laterals, wheel.values);
-      // Of hundreds of points and more; the shape itself adds up to tens of nanometres.
-      CHECK(std::abs(found - noise) < 0.15 * noise + 3e-8);
-    }
-  }
-  CHECK(estimated_noise(std::vector<double>(3), std::vector<double>(3)) == 0);
 }

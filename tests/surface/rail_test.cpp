@@ -86,6 +86,9 @@ TEST_CASE("Rail: knows whether its profile is convex, and the least curvature", 
   CHECK(rail.least_curvature(-0.02, -0.015) == Approx(1 / 0.08).epsilon(1e-12));
   CHECK(rail.least_curvature(-0.030, 0.002) == Approx(1 / 0.3).epsilon(1e-12));
   CHECK(rail.least_curvature(0.002, -0.030) == Approx(1 / 0.3).epsilon(1e-12));
+  const auto both = rail.curvatures(0.002, -0.015);
+  CHECK(both.least == rail.least_curvature(-0.015, 0.002));
+  CHECK(both.greatest == rail.greatest_curvature(-0.015, 0.002));
   CHECK(rail.least_curvature(0.030, 0.0362) == Approx(0).margin(1e-12));
   CHECK_FALSE(Rail(s1002<double>()).is_convex());
   using Piece = ProfilePiece<double>;

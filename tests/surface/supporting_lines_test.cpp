@@ -1,5 +1,8 @@
+#include <cmath>
 #include <random>
+#include <vector>
 #include <wheelrail/profile/rail_head.hpp>
+#include <wheelrail/profile/spline_profile.hpp>
 #include <wheelrail/surface/rail.hpp>
 #include <wheelrail/surface/supporting_lines.hpp>
 
@@ -9,24 +12,61 @@
 using namespace wheelrail;
 using wheelrail_test::StrictScalar;
 
+namespace {
+
+// All lines of a profile: the whole of it lies under each, but for rounding, and touches it.
+template <Profile P>
+void check_all_lines(const P& profile) {
+  using T = typename P::Scalar;
+  const SupportingLines<T> lines(profile);
+  std::vector<Vector2<T>> points;
+  for (int i = 0; i <= 2000; ++i) {
+    const T u = profile.lower() + (profile.upper() - profile.lower()) * (T(i) / 2000);
+    points.emplace_back(u, profile.evaluate(u).value);
+  }
+  const T middle = (profile.lower() + profile.upper()) / 2;
+  const T inside = profile.evaluate(middle).value - (profile.upper() - profile.lower()) / 2;
+  const SupportingLine<T>* last = nullptr;
+  int different = 0;
+  for (int i = 0; i < SupportingLines<T>::count; ++i) {
+    // In the middle of the directions of which each has a line.
+    const T sine = T(2 * i + 1 - SupportingLines<T>::count) / SupportingLines<T>::count;
+    const T cosine = std::sqrt(1 - sine * sine);
+    const auto& line = lines.near(middle + sine / 10, inside + cosine / 10);
+    if (&line != last) ++different;
+    last = &line;
+    T highest = -1;
+    for (const auto& point : points) highest = std::max(highest, T(line.normal.dot(point)));
+    CAPTURE(i);
+    CHECK(std::abs(line.normal.norm() - 1) < 8 * epsilon<T>());
+    // Rounding of arcs of 0.3 m.
+    CHECK(highest <= line.height + 2 * epsilon<T>() * T(0.3));
+    CHECK(line.height - highest < T(2e-6));
+  }
+  CHECK(different == SupportingLines<T>::count);
+}
+
+// Through points of a head, as far as its corners are no steeper than 8.
+template <class T>
+SplineProfile<T> spline_of(const RailHead<T>& head) {
+  std::vector<T> laterals, values;
+  const T end = head.dimensions().width / 2 - T(9e-5);
+  for (int i = 0; i <= 400; ++i) {
+    const T angle = (T(i) / 200 - 1) * pi<T>() / 2;
+    laterals.push_back(end * std::sin(angle));
+    values.push_back(head.evaluate(laterals.back()).value);
+  }
+  return SplineProfile<T>(laterals, values, {.noise = 0});
+}
+
+}  // namespace
+
 TEST_CASE("SupportingLines: the whole profile lies under each of them and touches it",
           "[surface]") {
-  for (const auto& profile : {uic50<double>(), rail_60e1<double>()}) {
-    const SupportingLines<double> lines(profile);
-    for (int angle = -89; angle <= 89; ++angle) {
-      const double a = angle * pi<double>() / 180;
-      const auto& line = lines.near(0.1 * std::sin(a), 0.1 * std::cos(a) - 0.03);
-      CHECK(std::abs(line.normal.norm() - 1) < 1e-14);
-      double highest = -1;
-      for (int i = 0; i <= 5000; ++i) {
-        const double u = profile.lower() + (profile.upper() - profile.lower()) * i / 5000;
-        const auto point = profile.evaluate(u);
-        highest = std::max(highest, line.normal.x() * u + line.normal.y() * point.value);
-      }
-      CHECK(highest <= line.height + 1e-15);
-      CHECK(line.height - highest < 1e-6);
-    }
-  }
+  check_all_lines(uic50<double>());
+  check_all_lines(rail_60e1<double>());
+  check_all_lines(uic50<float>());
+  check_all_lines(spline_of(uic50<double>()));
 }
 
 TEST_CASE("SupportingLines: near a point above the rail its height is nearly told",
@@ -49,6 +89,39 @@ TEST_CASE("SupportingLines: near a point above the rail its height is nearly tol
     CHECK(above <= height + 1e-12);
     CHECK(above >= 0.95 * height - 2e-6);
   }
+}
+
+TEST_CASE("SupportingLines: over the flat part, each touches the profile where it is asked for",
+          "[surface]") {
+  const auto profile = uic50<double>();
+  const SupportingLines<double> lines(profile);
+  const SupportingLines<StrictScalar> strict(uic50<StrictScalar>());
+  int flat = 0;
+  for (int i = 0; i <= 2000; ++i) {
+    const double u = profile.lower() + (profile.upper() - profile.lower()) * i / 2000;
+    const auto point = profile.evaluate(u);
+    CHECK(lines.is_flat_at(u) == (std::abs(point.slope) < 0.5));
+    if (!lines.is_flat_at(u)) continue;
+    ++flat;
+    const auto& line = lines.over(u);
+    CHECK(std::abs(line.normal.norm() - 1) < 1e-14);
+    // At most half of one of its places away, 0.055 mm, on a radius of 13 mm at least.
+    const double above = line.height - line.normal.x() * u - line.normal.y() * point.value;
+    CHECK(above > -1e-15);
+    CHECK(above < 0.055e-3 * 0.055e-3 / (2 * 0.013) * 1.5);
+    for (int k = 0; k <= 50; ++k) {
+      const double other = profile.lower() + (profile.upper() - profile.lower()) * k / 50;
+      CHECK(line.normal.x() * other + line.normal.y() * profile.evaluate(other).value <=
+            line.height + 1e-15);
+    }
+    if (i % 100 != 0) continue;
+    const auto& same = strict.over(StrictScalar(u));
+    CHECK(same.height.as_double() == line.height);
+    CHECK(same.normal.x().as_double() == line.normal.x());
+  }
+  CHECK(flat > 1200);
+  CHECK_FALSE(lines.is_flat_at(-0.034));
+  CHECK_FALSE(lines.is_flat_at(0.2));
 }
 
 TEST_CASE("SupportingLines: points below the profile's ends, and any scalar", "[surface]") {

@@ -267,15 +267,66 @@ TEST_CASE("equivalent_conicity: a cone's is its slope, by both methods, wherever
     const Curve curve({-0.01, -0.004, 0.0007, 0.01},
                       {2 * slope * (-0.01 - centre), 2 * slope * (-0.004 - centre),
                        2 * slope * (0.0007 - centre), 2 * slope * (0.01 - centre)});
-    // 1e-9: the integral runs to 4e-6 m2, and its rounding counts against what is left of the
-    // 1e-9 m2 of the least amplitude near the turning points, a ten-thousandth.
     for (const double amplitude : {2e-4, 1e-3, 6e-3}) {
       const auto found = equivalent_conicity(curve, amplitude);
       REQUIRE(found.status == ConicityStatus::found);
-      CHECK(found.conicity == Approx(slope).epsilon(1e-9));
-      CHECK(found.linear_regression == Approx(slope).epsilon(1e-10));
+      CHECK(found.conicity == Approx(slope).epsilon(1e-12));
+      CHECK(found.linear_regression == Approx(slope).epsilon(1e-12));
       CHECK((found.least_shift + found.greatest_shift) / 2 == Approx(centre).margin(1e-9));
     }
+  }
+}
+
+TEST_CASE("equivalent_conicity: a corner anywhere between middle and turning point, in closed form",
+          "[wheelset]") {
+  // D = 2 g y up to a corner at c, from there straight with the slope 2 h: sine waves of two
+  // springs, joined. With v the speed at the corner, S(A) = g c^2 + (h c'^2 - h c^2), where c' = A
+  // + (g/h - 1) c counts from the outer spring's own zero.
+  const double g = 0.02, h = 0.5, amplitude = 3e-3;
+  for (const double left : {1e-3, 1e-5, 1e-7, 1e-9, 1e-12, 1e-15}) {
+    const double c = amplitude - left;
+    CAPTURE(left);
+    const auto difference = [&](double y) { return 2 * g * c + 2 * h * (y - c); };
+    const Curve curve({-0.01, -c, c, 0.01},
+                      {-difference(0.01), -2 * g * c, 2 * g * c, difference(0.01)});
+    // Outer spring: y - c (1 - g/h) swings with the rate sqrt(2 h) from its own amplitude.
+    const double offset = c * (1 - g / h), own = amplitude - offset;
+    const double outer = std::acos((c - offset) / own) / std::sqrt(2 * h);
+    // Inner one: of the same energy, that of a quarter wave of amplitude `inner`.
+    const double speed2 = 2 * h * (own * own - (c - offset) * (c - offset));
+    const double inner = std::sqrt(c * c + speed2 / (2 * g));
+    const double quarter = outer + std::asin(c / inner) / std::sqrt(2 * g);
+    const auto found = equivalent_conicity(curve, amplitude);
+    REQUIRE(found.status == ConicityStatus::found);
+    CHECK(found.conicity ==
+          Approx(pi<double>() * pi<double>() / (8 * quarter * quarter)).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("equivalent_conicity: in single precision", "[wheelset][reference]") {
+  const Curve curve = curve_of(s1002<double>(), 0.46, rail_60e1<double>(), {1.435, 0.025});
+  std::vector<float> shifts, differences;
+  for (const double shift : curve.shifts()) {
+    shifts.push_back(static_cast<float>(shift));
+    differences.push_back(static_cast<float>(curve.at(shift)));
+  }
+  const RollingRadiusDifference<float> rounded(shifts, differences);
+  // The whole way in float: a wheel is set down to 4 um there.
+  const Wheelset<PiecewiseProfile<float>> wheelset(s1002<float>(), 0.46F, 1.5F);
+  const TangentTrack<RailHead<float>> track(rail_60e1<float>(), {1.435F, 0.025F});
+  const auto own = RollingRadiusDifference<float>::of(
+      kinematics_table(wheelset, track, {.lower = -8e-3F, .upper = 8e-3F, .step = 1e-4F}));
+  for (double amplitude = 0.5e-3; amplitude < 7.6e-3; amplitude += 0.5e-3) {
+    CAPTURE(amplitude);
+    const auto expected = equivalent_conicity(curve, amplitude);
+    const auto found = equivalent_conicity(rounded, static_cast<float>(amplitude));
+    REQUIRE(found.status == ConicityStatus::found);
+    CHECK(static_cast<double>(found.conicity) == Approx(expected.conicity).epsilon(1e-5));
+    CHECK(static_cast<double>(found.linear_regression) ==
+          Approx(expected.linear_regression).epsilon(1e-5));
+    const auto in_float = equivalent_conicity(own, static_cast<float>(amplitude));
+    REQUIRE(in_float.status == ConicityStatus::found);
+    CHECK(static_cast<double>(in_float.conicity) == Approx(expected.conicity).epsilon(0.01));
   }
 }
 

@@ -120,6 +120,22 @@ TEST_CASE("kinematics_table: profiles of 1000 points", "[wheelset]") {
   CHECK(table.shifts.size() < 400);
 }
 
+TEST_CASE("kinematics_table: steps of rounded decimal numbers are as many as there should be",
+          "[wheelset]") {
+  for (const double lower : {-0.007, -0.0055, 0.0011}) {
+    for (const int steps : {2, 6, 14, 60}) {
+      for (const double step : {1e-4, 3e-5, 7e-5, 1e-4 / 3}) {
+        CAPTURE(lower, steps, step);
+        // Nothing is put in between.
+        const auto table = kinematics_table(
+            wheelset_1002(), track_60e1(),
+            {.lower = lower, .upper = lower + steps * step, .step = step, .contact_step = 1.0});
+        CHECK(static_cast<int>(table.shifts.size()) == steps + 1);
+      }
+    }
+  }
+}
+
 TEST_CASE("kinematics_table: shifts that cannot be have their status", "[wheelset][bad-input]") {
   const auto table =
       kinematics_table(wheelset_1002(), track_60e1(), {.lower = -0.2, .upper = 0.2, .step = 0.1});
@@ -139,4 +155,10 @@ TEST_CASE("kinematics_table: bad ranges are named", "[wheelset][bad-input]") {
   CHECK_THROWS_WITH(table({.step = 1e-9}), Contains("1e-5 of the range"));
   CHECK_THROWS_WITH(table({.contact_step = -1.0}), Contains("contact step is -1"));
   CHECK_THROWS_WITH(table({.jump_width = 0.0}), Contains("jump width is 0"));
+  const auto with = [](const KinematicsOptions<double>& options) {
+    return kinematics_table(wheelset_1002(), track_60e1(), {}, options);
+  };
+  CHECK_THROWS_WITH(with({.closeness = std::nan("")}), Contains("closeness is nan"));
+  CHECK_THROWS_WITH(with({.tolerance = -1.0}), Contains("tolerance is -1"));
+  CHECK_THROWS_WITH(with({.maximum_iterations = 0}), Contains("there are 0 iterations"));
 }

@@ -310,8 +310,27 @@ TEST_CASE("wheelset_kinematics: what cannot be set down has a status", "[wheelse
             .status == TouchStatus::not_converged);
   for (const auto status :
        {TouchStatus::touching, TouchStatus::no_contact, TouchStatus::profile_end,
-        TouchStatus::not_converged, TouchStatus::not_finite}) {
+        TouchStatus::not_converged, TouchStatus::not_finite, TouchStatus::bad_options}) {
     CHECK(std::string(name_of(status)) != "unknown");
+  }
+}
+
+TEST_CASE("wheelset_kinematics: an option that breaks its rule has a status",
+          "[wheelset][bad-input]") {
+  const double nan = std::nan("");
+  for (const KinematicsOptions<double>& options : {KinematicsOptions<double>{.closeness = 0.0},
+                                                   {.closeness = nan},
+                                                   {.closeness = -1e-6},
+                                                   {.closeness = 1 / 0.0},
+                                                   {.tolerance = -1e-9},
+                                                   {.tolerance = nan},
+                                                   {.maximum_iterations = 0},
+                                                   {.maximum_iterations = -1}}) {
+    const auto at = wheelset_kinematics(wheelset_1002(), track_60e1(), 0.003, 0.0, options);
+    CHECK(at.status == TouchStatus::bad_options);
+    CHECK(at.wheels[0].status == TouchStatus::bad_options);
+    CHECK(at.wheels[1].status == TouchStatus::bad_options);
+    CHECK(at.lateral_shift == 0.003);
   }
 }
 

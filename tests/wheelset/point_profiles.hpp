@@ -1,10 +1,8 @@
 #pragma once
 // Profiles through points at equal steps, and what the tests of rigid contact share.
 
-#include <array>
 #include <vector>
-#include <wheelrail/numerics/cubic_spline.hpp>
-#include <wheelrail/profile/piecewise_profile.hpp>
+#include <wheelrail/profile/spline_profile.hpp>
 #include <wheelrail/track/tangent_track.hpp>
 #include <wheelrail/wheelset/wheelset.hpp>
 
@@ -12,33 +10,16 @@
 
 namespace wheelrail_test {
 
-using PointProfile = wheelrail::PiecewiseProfile<double>;
+using PointProfile = wheelrail::SplineProfile<double>;
 
-// The natural spline through points [m].
-[[nodiscard]] inline PointProfile through(const std::vector<double>& nodes,
-                                          const std::vector<double>& values) {
-  const wheelrail::CubicSpline<double> spline(nodes, values, wheelrail::SplineEnd::natural);
-  std::vector<wheelrail::ProfilePiece<double>> pieces;
-  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    const double width = nodes[i + 1] - nodes[i];
-    const auto from = spline.evaluate(nodes[i]), to = spline.evaluate(nodes[i + 1]);
-    const std::array<double, 4> coefficients{
-        from.value, from.slope, from.second_derivative / 2,
-        (to.second_derivative - from.second_derivative) / (6 * width)};
-    pieces.push_back(wheelrail::ProfilePiece<double>::polynomial(nodes[i], nodes[i + 1], nodes[i],
-                                                                 1.0, coefficients));
-  }
-  return PointProfile(std::move(pieces));
-}
-
-// A profile of the standard.
+// A profile of the standard, through its points.
 [[nodiscard]] inline PointProfile through(const en15302::Points& points) {
   std::vector<double> nodes, values;
   for (const double value : points.values) {
     nodes.push_back((points.first + static_cast<double>(nodes.size()) * points.step) * 1e-3);
     values.push_back(value * 1e-3);
   }
-  return through(nodes, values);
+  return PointProfile(nodes, values, {.noise = 0});
 }
 
 // The standard's track: rail A as it is laid, its first point 717.5 mm from the middle. That is

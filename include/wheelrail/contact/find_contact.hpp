@@ -7,10 +7,11 @@
 ///
 /// What is proved (ContactResult::is_proved), and from what, stands in detail/penetration_bounds.hpp.
 
+#include <wheelrail/contact/detail/lifted_patch.hpp>
 #include <wheelrail/contact/detail/locus_strips.hpp>
 #include <wheelrail/contact/detail/near_runs.hpp>
 #include <wheelrail/contact/detail/penetration_bounds.hpp>
-#include <wheelrail/contact/patch.hpp>
+#include <wheelrail/contact/patch_blending.hpp>
 #include <wheelrail/contact/search_memory.hpp>
 
 namespace wheelrail {
@@ -28,14 +29,28 @@ struct SearchOptions {
   /// Where the penetration varies by at most depth_tolerance [m], a part of the profile is not
   /// divided further: zones shallower than this may be missing, or be one where they are two.
   T depth_tolerance = constant<T>(1e-9L);
-  /// Whether zone_lower and zone_upper of the patches are solved for; otherwise they are NaN.
+  /// Whether zone_lower and zone_upper of the patches are solved for; otherwise they are NaN, but for
+  /// the minima between blended patches.
   bool zone_ends = true;
   /// Parts are not divided any more once evaluations > maximum_evaluations; `is_proved` is false
   /// then where the search depended on it.
   int maximum_evaluations = 4000;
+  /// Where blending_length > 0 [m], forces do not jump from pose to pose: each local maximum of the
+  /// penetration that is deeper than the threshold is a patch with its `share` of the zone's force,
+  /// and patches have mean curvatures over this length to either side (patch_blending.hpp). About
+  /// the semi-axis of a contact ellipse, 3 mm, will do. The paper has no such thing: 0.
+  T blending_length = T(0);
 };
 
 namespace detail {
+
+// What maxima and minima of a blended zone differ by [m]. Smaller ones may not have been found.
+template <Profile P>
+[[nodiscard]] typename P::Scalar blending_resolution(
+    const Wheel<P>& wheel, const SearchOptions<typename P::Scalar>& options) {
+  using T = typename P::Scalar;
+  return max(options.depth_tolerance, T(T(64) * epsilon<T>() * wheel.nominal_radius()));
+}
 
 /// The search at work on one wheel and rail: walks the strips and collects the zones.
 template <Profile P, Profile R>
@@ -58,14 +73,15 @@ class StripWalk {
                 T(options.penetration_threshold - margin_)) {
     using std::sqrt;
     grid_ = sqrt(epsilon<T>()) * wheel.nominal_radius();
+    is_blending_ = T(0) < options.blending_length;
+    resolution_ = blending_resolution(wheel, options);
   }
 
   [[nodiscard]] ContactResult<T> run() {
     result_.is_proved = can_prove_;
     if (memory_ == nullptr || !can_prove_) {
       near_.for_each(T(0), [this](int first, int last) {
-        const Strip left = strips_.edge(first);
-        visit_run(first, last, left, strips_.edge(last));
+        visit_run(first, last, strips_.of_wheel(first), strips_.of_wheel(last));
       });
     } else {
       const T& threshold = options_.penetration_threshold;
@@ -386,11 +402,31 @@ class StripWalk {
     } else if (!inside && zone_is_open_) {
       zone_is_cut_ = zone_is_cut_ || !next.exists;
       close_zone(next.exists ? boundary(last_, next) : last_.wheel_lateral);
+    } else if (is_blending_ && inside && next.is_exact && deepest_.is_exact) {
+      blend(next);
     } else if (inside && next.is_exact &&
                (!deepest_.is_exact || deepest_.penetration < next.penetration)) {
       deepest_ = next;
     }
     last_ = next;
+  }
+
+  // The next strip of an open zone of which each local maximum becomes a patch.
+  void blend(const Strip& next) {
+    if (!has_fallen_) {
+      if (deepest_.penetration < next.penetration) deepest_ = next;
+      minimum_ = deepest_.penetration - resolution_;
+    }
+    if (next.penetration < minimum_) {
+      has_fallen_ = true;
+      minimum_ = next.penetration;
+      minimum_lateral_ = next.wheel_lateral;
+    } else if (has_fallen_ && minimum_ + resolution_ < next.penetration) {
+      add_patch(minimum_lateral_, minimum_);
+      zone_lower_ = minimum_lateral_;
+      zone_is_cut_ = has_fallen_ = false;
+      deepest_ = next;
+    }
   }
 
   // Ends the walk over neighbouring strips; a zone that is open there ends with the profile.
@@ -433,13 +469,21 @@ class StripWalk {
   }
 
   void close_zone(const T& zone_upper) {
-    zone_is_open_ = false;
+    zone_is_open_ = has_fallen_ = false;
+    add_patch(options_.zone_ends ? zone_upper : T(T(0) / T(0)), T(0));
+  }
+
+  void add_patch(const T& zone_upper, const T& penetration_to_next) {
     ++result_.evaluations;
     Patch<T> patch =
         patch_on_strip(wheel_, rail_, placement_, deepest_.piece, deepest_.wheel_lateral);
     patch.zone_lower = zone_lower_;
-    patch.zone_upper = options_.zone_ends ? zone_upper : zone_lower_;
+    patch.zone_upper = zone_upper;
     patch.zone_is_cut = zone_is_cut_;
+    if (is_blending_) {
+      patch.penetration_to_next = penetration_to_next;
+      patch = with_mean_curvatures(patch, wheel_, rail_, options_.blending_length);
+    }
     if (options_.maximum_penetration < patch.penetration) result_.status = SearchStatus::too_deep;
     if (!result_.patches.push_back(patch)) result_.status = SearchStatus::too_many_patches;
   }
@@ -454,38 +498,62 @@ class StripWalk {
   LocusStrips<P, R> strips_;
   NearRuns<P, R> near_;
   PenetrationBounds<R> bounds_;
-  T grid_{};  // a last Newton step this long leaves an error of rounding [m]
+  T grid_ = T(0);  // a last Newton step this long leaves an error of rounding [m]
   ContactResult<T> result_;
   int reached_ = -1;  // the last strip of the wheel that was visited
   Strip last_;
   Strip deepest_;
-  T zone_lower_{};
+  T zone_lower_ = T(0);
   bool zone_is_open_ = false;
+  bool is_blending_ = false;
+  bool has_fallen_ = false;  // of a blended zone: from a local maximum to a minimum so far
+  T resolution_ = T(0), minimum_ = T(0), minimum_lateral_ = T(0);
   bool zone_is_cut_ = false;
 };
 
-}  // namespace detail
-
-namespace detail {
+// Sets the shares of blended patches.
+template <Real T>
+void share_out(ContactResult<T>& result, const T& resolution) {
+  const auto shares = blended_shares(result.patches, resolution);
+  for (std::size_t i = 0; i < result.patches.size(); ++i) result.patches[i].share = shares[i];
+}
 
 template <Profile P, Profile R>
 [[nodiscard]] ContactResult<typename P::Scalar> find_contact(
     const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
-    const SearchOptions<typename P::Scalar>& options, SearchMemory<typename P::Scalar>* memory) {
+    const SearchOptions<ValueOf<typename P::Scalar>>& options,
+    SearchMemory<ValueOf<typename P::Scalar>>* memory) {
   using T = typename P::Scalar;
-  if (!is_finite_placement(placement) || !is_finite(options.penetration_threshold)) {
-    ContactResult<T> result;
-    result.status = SearchStatus::not_finite;
+  if constexpr (has_derivatives<T>) {
+    using Values = typename Wheel<P>::Values;
+    using RailValues = typename Rail<R>::Values;
+    const auto found =
+        detail::find_contact<typename Values::ProfileType, typename RailValues::ProfileType>(
+            wheel.values(), rail.values(), placement.values(), options, memory);
+    auto result = lifted_result(wheel, rail, placement, found, options.penetration_threshold);
+    if (ValueOf<T>(0) < options.blending_length) {
+      for (auto& patch : result.patches) {
+        patch = with_mean_curvatures(patch, wheel, rail, T(options.blending_length));
+      }
+      share_out(result, T(blending_resolution(wheel.values(), options)));
+    }
+    return result;
+  } else {
+    if (!is_finite_placement(placement) || !is_finite(options.penetration_threshold)) {
+      ContactResult<T> result;
+      result.status = SearchStatus::not_finite;
+      return result;
+    }
+    ContactResult<T> result = StripWalk<P, R>(wheel, rail, placement, options, memory).run();
+    if (memory != nullptr && !result.is_proved) {
+      // At this very placement more may be excluded than near it.
+      const int evaluations = result.evaluations;
+      result = StripWalk<P, R>(wheel, rail, placement, options, nullptr).run();
+      result.evaluations += evaluations;
+    }
+    if (T(0) < options.blending_length) share_out(result, blending_resolution(wheel, options));
     return result;
   }
-  ContactResult<T> result = StripWalk<P, R>(wheel, rail, placement, options, memory).run();
-  if (memory != nullptr && !result.is_proved) {
-    // At this very placement more may be excluded than near it.
-    const int evaluations = result.evaluations;
-    result = StripWalk<P, R>(wheel, rail, placement, options, nullptr).run();
-    result.evaluations += evaluations;
-  }
-  return result;
 }
 
 }  // namespace detail
@@ -496,12 +564,16 @@ template <Profile P, Profile R>
 ///   ends to the square of sqrt(epsilon) radii over the profile's own radius: hardly more (an end that
 ///   zone_is_cut tells of: to a strip). Strips whose foot lies beyond the
 ///   rail profile's ends do not count as penetrating. Where a zone holds several local maxima the
-///   deepest is its patch.
+///   deepest is its patch; with SearchOptions::blending_length each is one, its zone ending at the
+///   minima between them.
 /// @note Does not allocate. Equations (57), (59), (61), (62) of the paper.
+/// @note Dual numbers: exact derivatives, of patches that stay. At its birth a patch has them but for
+///   the zone's ends, whose slopes grow beyond bounds, as does that of its place where it merges with a
+///   minimum. That (62) drops a patch then, no derivative tells. At joints those of one side.
 template <Profile P, Profile R>
 [[nodiscard]] ContactResult<typename P::Scalar> find_contact(
     const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
-    const SearchOptions<typename P::Scalar>& options = {}) {
+    const SearchOptions<ValueOf<typename P::Scalar>>& options = {}) {
   return detail::find_contact<P, R>(wheel, rail, placement, options, nullptr);
 }
 
@@ -513,8 +585,8 @@ template <Profile P, Profile R>
 template <Profile P, Profile R>
 [[nodiscard]] ContactResult<typename P::Scalar> find_contact(
     const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
-    SearchMemory<typename P::Scalar>& memory,
-    const SearchOptions<typename P::Scalar>& options = {}) {
+    SearchMemory<ValueOf<typename P::Scalar>>& memory,
+    const SearchOptions<ValueOf<typename P::Scalar>>& options = {}) {
   WHEELRAIL_ASSERT(memory.is_for(wheel));
   return detail::find_contact<P, R>(wheel, rail, placement, options, &memory);
 }

@@ -4,9 +4,8 @@
 /// on, and on several threads. May include: core, numerics, profile, surface, contact.
 
 #include <algorithm>
-#include <exception>
+#include <future>
 #include <span>
-#include <thread>
 #include <utility>
 #include <vector>
 #include <wheelrail/contact/detail/block_walk.hpp>
@@ -25,6 +24,12 @@ void find_contacts_between(const Wheel<P>& wheel, const Rail<R>& rail,
                            std::size_t end, std::span<ContactResult<typename P::Scalar>> results,
                            const SearchOptions<typename P::Scalar>& options) {
   using T = typename P::Scalar;
+  if (T(0) < options.blending_length) {  // the lanes know one patch for each zone
+    for (std::size_t i = begin; i < end; ++i) {
+      results[i] = find_contact(wheel, rail, placements.at(i), options);
+    }
+    return;
+  }
   std::vector<std::pair<T, std::size_t>> order;  // lateral position and index
   order.reserve(end - begin);
   for (std::size_t i = begin; i < end; ++i) {
@@ -73,26 +78,17 @@ template <Profile P, Profile R>
   const std::size_t count = placements.size();
   const std::size_t shares =
       std::clamp((count + block - 1) / block, std::size_t{1}, static_cast<std::size_t>(threads));
-  std::vector<std::exception_ptr> faults(shares);
-  const auto search_share = [&](std::size_t share) noexcept {
-    try {
-      detail::find_contacts_between(wheel, rail, placements, count * share / shares,
-                                    count * (share + 1) / shares, results, options);
-    } catch (...) {
-      faults[share] = std::current_exception();
-    }
+  const auto search_share = [&](std::size_t share) {
+    detail::find_contacts_between(wheel, rail, placements, count * share / shares,
+                                  count * (share + 1) / shares, results, options);
   };
-  {
-    std::vector<std::jthread> others;  // joined at the end of this scope, whatever happens
-    others.reserve(shares - 1);
-    for (std::size_t share = 1; share < shares; ++share) {
-      others.emplace_back([&search_share, share] { search_share(share); });
-    }
-    search_share(0);
+  std::vector<std::future<void>> others;  // whose ends are waited for here, whatever happens
+  others.reserve(shares - 1);
+  for (std::size_t share = 1; share < shares; ++share) {
+    others.push_back(std::async(std::launch::async, search_share, share));
   }
-  for (const std::exception_ptr& fault : faults) {
-    if (fault) std::rethrow_exception(fault);
-  }
+  search_share(0);
+  for (std::future<void>& other : others) other.get();  // throws what its thread threw
   return results;
 }
 

@@ -18,11 +18,12 @@ template <Real T>
 struct LocusPoint {
   ProfilePoint<T> profile;  ///< of the wheel
   WheelAngle<T> angle;      ///< (57)
-  T along_rail{};           ///< x of the rail frame, from the wheel profile's origin: (59) [m]
-  T lateral{};              ///< y of the rail frame [m]
-  T up{};                   ///< z of the rail frame [m]
-  T lateral_rate{};         ///< d lateral / d wheel_lateral [-]
-  T up_rate{};              ///< d up / d wheel_lateral [-]
+  T inverse_cosine = T(1);  ///< of the angle [-]
+  T along_rail = T(0);      ///< x of the rail frame, from the wheel profile's origin: (59) [m]
+  T lateral = T(0);         ///< y of the rail frame [m]
+  T up = T(0);              ///< z of the rail frame [m]
+  T lateral_rate = T(0);    ///< d lateral / d wheel_lateral [-]
+  T up_rate = T(0);         ///< d up / d wheel_lateral [-]
   bool exists = false;  ///< false where |tan(yaw) F'| >= 1: no normal of the strip is in the plane
 };
 
@@ -45,6 +46,7 @@ template <Profile P>
   const T cosine = sqrt(cosine_squared);
   locus.exists = true;
   locus.angle = {sine, cosine};
+  locus.inverse_cosine = T(1) / cosine;
   // (59) in the right-handed rail frame: the same sign on both sides.
   locus.along_rail = -(wheel_lateral + radius * point.slope) * placement.sin_yaw;
   // The section plane before the roll: x sin(yaw) is folded into y.
@@ -54,8 +56,8 @@ template <Profile P>
   // d(R F')/du = F'^2 + R F''; d cos(s_w)/du = -tan^2(yaw) F' F'' / cos(s_w)
   const T y_rate =
       placement.cos_yaw - (point.slope * point.slope + radius * point.second_derivative) * fold;
-  const T z_rate =
-      -point.slope * cosine + radius * tan_yaw * sine * point.second_derivative / cosine;
+  const T z_rate = -point.slope * cosine +
+                   radius * tan_yaw * sine * point.second_derivative * locus.inverse_cosine;
   locus.lateral = placement.position_rail.y() + placement.cos_roll * y - placement.sin_roll * z;
   locus.up = placement.position_rail.z() + placement.sin_roll * y + placement.cos_roll * z;
   locus.lateral_rate = placement.cos_roll * y_rate - placement.sin_roll * z_rate;

@@ -25,7 +25,7 @@ enum class ProximityCase {
 /// follows from the wheel.
 template <Real T>
 struct MinimumDistanceOptions {
-  MinimumDistanceForm form = MinimumDistanceForm::wheel_normal;
+  MinimumDistanceForm form = MinimumDistanceForm::wheel_normal;  ///< of the equations
   /// Converged when a full Newton step changes no length by more than this [m] (angles: times the
   /// wheel's radius); 0 means epsilon^(2/3) of the nominal radius, after which the quadratically
   /// convergent iterate is exact to rounding.
@@ -54,30 +54,32 @@ using ConvexParts = FixedList<LateralInterval<T>, 4>;
 /// ConvexModification leaves. The jumps of the standard's rounded coefficients are below 1e-5.
 /// @throws std::invalid_argument where there are more corners than 3.
 template <Profile P>
-[[nodiscard]] ConvexParts<typename P::Scalar> convex_parts(
-    const P& profile, const typename P::Scalar& slope_jump = constant<typename P::Scalar>(1e-3L)) {
+[[nodiscard]] ConvexParts<ValueOf<typename P::Scalar>> convex_parts(
+    const P& profile,
+    const ValueOf<typename P::Scalar>& slope_jump = constant<ValueOf<typename P::Scalar>>(1e-3L)) {
   using T = typename P::Scalar;
-  ConvexParts<T> parts;
-  T lower = profile.lower();
-  const auto add = [&](const T& upper) {
+  using V = ValueOf<T>;
+  ConvexParts<V> parts;
+  V lower = value_of(T(profile.lower()));
+  const auto add = [&](const V& upper) {
     detail::require(parts.push_back({lower, upper}),
                     "convex parts: the profile has more than 3 concave corners");
     lower = upper;
   };
   for (const auto& joint : inspect_joints(profile)) {
-    if (joint.slope_jump < -slope_jump) add(joint.lateral);
+    if (value_of(joint.slope_jump) < -slope_jump) add(value_of(joint.lateral));
   }
-  add(profile.upper());
+  add(value_of(T(profile.upper())));
   return parts;
 }
 
 /// The parameters of a pair of points: the unknowns of (30), (31).
 template <Real T>
 struct PointPair {
-  T arc_length{};     ///< s_r, x of the rail frame [m]
-  T rail_lateral{};   ///< u_r [m]
-  T wheel_angle{};    ///< s_w [rad]
-  T wheel_lateral{};  ///< u_w [m]
+  T arc_length = T(0);     ///< s_r, x of the rail frame [m]
+  T rail_lateral = T(0);   ///< u_r [m]
+  T wheel_angle = T(0);    ///< s_w [rad]
+  T wheel_lateral = T(0);  ///< u_w [m]
 };
 
 /// What the method remembers of one wheel on its rail: the pair of points of each convex part. The
@@ -85,9 +87,10 @@ struct PointPair {
 /// gives the answers of a cold one, to rounding.
 template <Real T>
 struct MinimumDistanceMemory {
+  /// One convex part.
   struct Remembered {
-    PointPair<T> points;  ///< arc_length from that of the wheel profile's origin [m]
-    bool is_known = false;
+    PointPair<T> points;    ///< arc_length from that of the wheel profile's origin [m]
+    bool is_known = false;  ///< a search has converged to them
   };
   std::array<Remembered, ConvexParts<T>::capacity()> parts{};  ///< in the order of ConvexParts
 };
@@ -95,10 +98,10 @@ struct MinimumDistanceMemory {
 /// The outcome on one convex part.
 template <Real T>
 struct PartDistance {
-  PointPair<T> points;
-  ProximityCase proximity = ProximityCase::not_converged;
-  T distance{};         ///< n_r.d [m]: negative in penetration
-  T residual{};         ///< the larger of |d.t| / nominal radius and |n.t| [-]
+  PointPair<T> points;                                     ///< where the search ended
+  ProximityCase proximity = ProximityCase::not_converged;  ///< which case it is
+  T distance = T(0);                                       ///< n_r.d [m]: negative in penetration
+  T residual = T(0);    ///< the larger of |d.t| / nominal radius and |n.t| [-]
   int iterations = 0;   ///< Newton systems solved
   int evaluations = 0;  ///< iterations, and the strips that were looked at for the start
 };
@@ -327,11 +330,34 @@ template <Profile P, Profile R>
 
 namespace detail {
 
-/// The patches of the parts; distance_on(k) is the outcome on part k.
+/// The pair that was found on values, with the derivatives of T: one Newton step for each order.
+template <Profile P, Profile R>
+[[nodiscard]] PartDistance<typename P::Scalar> lifted_pair(
+    const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
+    const PartDistance<ValueOf<typename P::Scalar>>& found) {
+  using T = typename P::Scalar;
+  if constexpr (!has_derivatives<T>) {
+    return found;
+  } else {
+    const MinimumDistanceEquations<P, R> equations(wheel, rail, placement,
+                                                   MinimumDistanceForm::wheel_normal);
+    Vector4<T> x(T(found.points.arc_length), T(found.points.rail_lateral),
+                 T(found.points.wheel_angle), T(found.points.wheel_lateral));
+    for (int order = 0; order < ScalarTraits<T>::lifting_steps; ++order) {
+      const Vector4<T> step = equations.newton_step(equations.pair(x));
+      for (Eigen::Index i = 0; i < 4; ++i) x(i) += step(i) - T(value_of(T(step(i))));
+    }
+    const auto at = equations.pair(x);
+    return {{x(0), x(1), x(2), x(3)}, found.proximity,  -at.penetration, at.norm,
+            found.iterations,         found.evaluations};
+  }
+}
+
+/// The patches of the parts; distance_on(k) is the outcome on part k, of the values.
 template <Profile P, Profile R, class DistanceOn>
 [[nodiscard]] ContactResult<typename P::Scalar> patches_of_parts(
     const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
-    const ConvexParts<typename P::Scalar>& parts, DistanceOn&& distance_on) {
+    const ConvexParts<ValueOf<typename P::Scalar>>& parts, DistanceOn&& distance_on) {
   using T = typename P::Scalar;
   ContactResult<T> result;
   if (!is_finite_placement(placement)) {
@@ -339,16 +365,18 @@ template <Profile P, Profile R, class DistanceOn>
     return result;
   }
   for (std::size_t k = 0; k < parts.size(); ++k) {
-    const PartDistance<T> found = distance_on(k);
-    result.evaluations += found.evaluations;
-    if (found.proximity == ProximityCase::not_converged) {
+    const PartDistance<ValueOf<T>> on_values = distance_on(k);
+    result.evaluations += on_values.evaluations;
+    if (on_values.proximity == ProximityCase::not_converged) {
       result.status = SearchStatus::not_converged;
     }
-    if (found.proximity != ProximityCase::penetrating) continue;
-    const ProfilePoint<T> on_wheel = wheel.profile().evaluate(found.points.wheel_lateral);
+    if (on_values.proximity != ProximityCase::penetrating) continue;
+    const PartDistance<T> found = lifted_pair(wheel, rail, placement, on_values);
+    const int piece = piece_of(wheel.profile(), found.points.wheel_lateral);
+    const ProfilePoint<T> on_wheel = wheel.profile().evaluate(piece, found.points.wheel_lateral);
     const T rail_lateral = found.points.rail_lateral;
     const Patch<T> patch =
-        patch_at(wheel, rail, placement, found.points.wheel_lateral, on_wheel,
+        patch_at(wheel, rail, placement, piece, found.points.wheel_lateral, on_wheel,
                  WheelAngle<T>::of(found.points.wheel_angle), rail_lateral,
                  Rail<R>::normal_rail(rail.profile().evaluate(
                      clamp(rail_lateral, rail.profile().lower(), rail.profile().upper()))),
@@ -369,10 +397,11 @@ template <Profile P, Profile R, class DistanceOn>
 template <Profile P, Profile R>
 [[nodiscard]] ContactResult<typename P::Scalar> find_contact_by_minimum_distance(
     const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
-    const ConvexParts<typename P::Scalar>& parts,
-    const MinimumDistanceOptions<typename P::Scalar>& options = {}) {
+    const ConvexParts<ValueOf<typename P::Scalar>>& parts,
+    const MinimumDistanceOptions<ValueOf<typename P::Scalar>>& options = {}) {
+  const auto on_values = placement.values();
   return detail::patches_of_parts(wheel, rail, placement, parts, [&](std::size_t k) {
-    return minimum_distance(wheel, rail, placement, parts[k], options);
+    return minimum_distance(wheel.values(), rail.values(), on_values, parts[k], options);
   });
 }
 
@@ -382,10 +411,13 @@ template <Profile P, Profile R>
 template <Profile P, Profile R>
 [[nodiscard]] ContactResult<typename P::Scalar> find_contact_by_minimum_distance(
     const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
-    const ConvexParts<typename P::Scalar>& parts, MinimumDistanceMemory<typename P::Scalar>& memory,
-    const MinimumDistanceOptions<typename P::Scalar>& options = {}) {
+    const ConvexParts<ValueOf<typename P::Scalar>>& parts,
+    MinimumDistanceMemory<ValueOf<typename P::Scalar>>& memory,
+    const MinimumDistanceOptions<ValueOf<typename P::Scalar>>& options = {}) {
+  const auto on_values = placement.values();
   return detail::patches_of_parts(wheel, rail, placement, parts, [&](std::size_t k) {
-    return minimum_distance(wheel, rail, placement, parts[k], memory.parts[k], options);
+    return minimum_distance(wheel.values(), rail.values(), on_values, parts[k], memory.parts[k],
+                            options);
   });
 }
 

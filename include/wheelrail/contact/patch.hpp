@@ -14,23 +14,30 @@ namespace wheelrail {
 /// longitudinal_rail are orthogonal unit vectors to rounding.
 template <Real T>
 struct Patch {
-  T wheel_lateral{};  ///< u_w, from the tread circle to the field side [m]
-  T rail_lateral{};   ///< u_r, from the rail profile's origin to the field side [m]
+  T wheel_lateral = T(0);  ///< u_w, from the tread circle to the field side [m]
+  T rail_lateral = T(0);   ///< u_r, from the rail profile's origin to the field side [m]
   /// s_w (57), right-handed about the axle's direction to the field side, 0 straight below [rad]
-  T wheel_angle{};
-  T longitudinal{};  ///< forwards along the rail from the wheel profile's origin (59) [m]
-  T penetration{};   ///< virtual penetration, (33), positive in contact [m]
-  T zone_lower{};    ///< wheel_lateral where the zone begins (62) [m]; NaN: not known by the method
-  T zone_upper{};    ///< wheel_lateral where the zone ends [m]
+  T wheel_angle = T(0);
+  T longitudinal = T(0);  ///< forwards along the rail from the wheel profile's origin (59) [m]
+  T penetration = T(0);   ///< virtual penetration, (33), positive in contact [m]
+  T zone_lower =
+      T(0);  ///< wheel_lateral where the zone begins (62) [m]; NaN: not known by the method
+  T zone_upper = T(0);  ///< wheel_lateral where the zone ends [m]
   /// The zone ends where the wheel's or the rail's profile ends, not where the bodies part.
   bool zone_is_cut = false;
+  int wheel_piece = 0;  ///< of the wheel's profile; at a joint, the one whose limit was taken
+  /// The least penetration between this patch and the next one of the same zone, at zone_upper [m]; 0
+  /// where the zone ends there. Only a search with SearchOptions::blending_length has such patches.
+  T penetration_to_next = T(0);
+  /// The part of the patch's force that counts, in [0, 1] [-]: see patch_blending.hpp
+  T share = T(1);
   /// Slope of the contact plane against the track plane, rising to the field side: positive on the
   /// flange, on both sides [rad]
-  T contact_angle{};
-  T rolling_radius{};                             ///< nominal radius + F [m]
-  T wheel_longitudinal_curvature{};               ///< (27) [1/m]
-  T wheel_lateral_curvature{};                    ///< (26) [1/m]
-  T rail_lateral_curvature{};                     ///< (17) [1/m]
+  T contact_angle = T(0);
+  T rolling_radius = T(0);                        ///< nominal radius + F [m]
+  T wheel_longitudinal_curvature = T(0);          ///< (27) [1/m]
+  T wheel_lateral_curvature = T(0);               ///< (26) [1/m]
+  T rail_lateral_curvature = T(0);                ///< (17) [1/m]
   Vector3<T> position_rail = Vector3<T>::Zero();  ///< the wheel's contact point Q [m], rail frame
   Vector3<T> normal_rail = Vector3<T>::UnitZ();   ///< unit normal from rail to wheel, rail frame
   Vector3<T> longitudinal_rail =
@@ -67,9 +74,9 @@ enum class SearchStatus {
 /// Invariant: patches are in the order of wheel_lateral, from the flange to the field side.
 template <Real T>
 struct ContactResult {
-  static constexpr std::size_t maximum_patches = 8;
-  FixedList<Patch<T>, maximum_patches> patches;
-  SearchStatus status = SearchStatus::complete;
+  static constexpr std::size_t maximum_patches = 8;  ///< most patches that are reported
+  FixedList<Patch<T>, maximum_patches> patches;      ///< one for each zone
+  SearchStatus status = SearchStatus::complete;      ///< what can be relied on
   /// Strips of the wheel whose feet on the rail were looked for, and Newton systems solved [-]
   int evaluations = 0;
   /// No zone deeper than the depth tolerance that the search was given is missing: see
@@ -90,23 +97,25 @@ template <Real T>
 template <Profile P, Profile R>
 [[nodiscard]] Patch<typename P::Scalar> patch_at(
     const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
-    const typename P::Scalar& wheel_lateral, const ProfilePoint<typename P::Scalar>& wheel_point,
+    int piece, const typename P::Scalar& wheel_lateral,
+    const ProfilePoint<typename P::Scalar>& wheel_point,
     const WheelAngle<typename P::Scalar>& angle, const typename P::Scalar& rail_lateral,
     const Vector3<typename P::Scalar>& normal_rail, const typename P::Scalar& penetration) {
   using std::asin;
-  using std::atan2;
   using T = typename P::Scalar;
   const T on_rail = clamp(rail_lateral, rail.profile().lower(), rail.profile().upper());
   const Vector3<T> arm_rail =
       placement.direction_rail(wheel.position_wheel(wheel_lateral, wheel_point, angle));
   Patch<T> patch;
   patch.wheel_lateral = wheel_lateral;
+  patch.wheel_piece = piece;
   patch.rail_lateral = rail_lateral;
   patch.wheel_angle = asin(angle.sine);
   patch.longitudinal = outboard_sign<T>(placement.side) * arm_rail.x();
   patch.penetration = penetration;
   patch.zone_lower = patch.zone_upper = T(0) / T(0);
-  patch.contact_angle = atan2(T(-normal_rail.y()), T(normal_rail.z())) + placement.inclination;
+  patch.contact_angle =
+      arc_tangent(T(-normal_rail.y()), T(normal_rail.z())) + placement.inclination;
   patch.rolling_radius = wheel.radius(wheel_point);
   patch.wheel_longitudinal_curvature = wheel.longitudinal_curvature(wheel_point);
   patch.wheel_lateral_curvature = wheel.lateral_curvature(wheel_point);
@@ -117,17 +126,36 @@ template <Profile P, Profile R>
   return patch;
 }
 
-/// The patch at a strip's locus point, its zone not yet known.
 template <Profile P, Profile R>
-[[nodiscard]] Patch<typename P::Scalar> patch_on_strip(
+[[nodiscard]] Patch<typename P::Scalar> patch_on_strip_of(
     const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
     int piece, const typename P::Scalar& wheel_lateral) {
   using T = typename P::Scalar;
   const ProfilePoint<T> point = wheel.profile().evaluate(piece, wheel_lateral);
   const LocusPoint<T> locus = locus_point(wheel, placement, wheel_lateral, point);
   const ClosestPoint<T> foot = rail_foot(rail.profile(), locus.lateral, locus.up);
-  return patch_at(wheel, rail, placement, wheel_lateral, point, locus.angle, foot.lateral,
+  return patch_at(wheel, rail, placement, piece, wheel_lateral, point, locus.angle, foot.lateral,
                   Vector3<T>(T(0), foot.normal_rail.x(), foot.normal_rail.y()), foot.penetration);
+}
+
+// Flat but in dual numbers, as in LocusStrips.
+template <Profile P, Profile R>
+[[nodiscard, gnu::flatten]] Patch<typename P::Scalar> flat_patch_on_strip(
+    const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
+    int piece, const typename P::Scalar& wheel_lateral) {
+  return patch_on_strip_of(wheel, rail, placement, piece, wheel_lateral);
+}
+
+/// The patch at a strip's locus point, its zone not yet known.
+template <Profile P, Profile R>
+[[nodiscard]] Patch<typename P::Scalar> patch_on_strip(
+    const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
+    int piece, const typename P::Scalar& wheel_lateral) {
+  if constexpr (has_derivatives<typename P::Scalar>) {
+    return patch_on_strip_of(wheel, rail, placement, piece, wheel_lateral);
+  } else {
+    return flat_patch_on_strip(wheel, rail, placement, piece, wheel_lateral);
+  }
 }
 
 }  // namespace detail

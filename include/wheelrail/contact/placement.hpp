@@ -3,6 +3,7 @@
 /// How a wheel lies over its rail: equations (34)-(51) of the paper, with sines and cosines in
 /// place of angles. May include: core, numerics, profile, surface.
 
+#include <wheelrail/numerics/detail/arc_tangent.hpp>
 #include <wheelrail/surface/rail.hpp>
 #include <wheelrail/surface/wheel.hpp>
 
@@ -15,7 +16,7 @@ namespace wheelrail {
 /// makes them; NaN where that was not possible.
 template <Real T>
 struct WheelPlacement {
-  Side side = Side::left;
+  Side side = Side::left;                         ///< of the rail and the wheel
   Vector3<T> position_rail = Vector3<T>::Zero();  ///< of the wheel profile's origin [m]
   T sin_yaw = T(0);                               ///< of yaw() [-]
   T cos_yaw = T(1);                               ///< of yaw() [-]
@@ -32,17 +33,28 @@ struct WheelPlacement {
                       sin_roll * y + cos_roll * d.z());
   }
 
-  /// (50) [rad], right-handed about the rail's upward axis after undoing the roll.
-  [[nodiscard]] T yaw() const {
-    using std::atan2;
-    return atan2(sin_yaw, cos_yaw);
+  /// The placement without the derivatives of its scalar.
+  [[nodiscard]] WheelPlacement<ValueOf<T>> values() const {
+    if constexpr (has_derivatives<T>) {
+      const Vector3<T>& p = position_rail;
+      return {side,
+              Vector3<ValueOf<T>>(value_of(T(p.x())), value_of(T(p.y())), value_of(T(p.z()))),
+              value_of(sin_yaw),
+              value_of(cos_yaw),
+              value_of(tan_yaw),
+              value_of(sin_roll),
+              value_of(cos_roll),
+              value_of(inclination)};
+    } else {
+      return *this;
+    }
   }
 
+  /// (50) [rad], right-handed about the rail's upward axis after undoing the roll.
+  [[nodiscard]] T yaw() const { return detail::arc_tangent(sin_yaw, cos_yaw); }
+
   /// (47) [rad], right-handed about the rail frame's x axis.
-  [[nodiscard]] T roll() const {
-    using std::atan2;
-    return atan2(sin_roll, cos_roll);
-  }
+  [[nodiscard]] T roll() const { return detail::arc_tangent(sin_roll, cos_roll); }
 };
 
 /// The placement of a wheel over a rail.

@@ -16,8 +16,8 @@ class PlacementBatch {
  public:
   PlacementBatch() = default;
 
-  [[nodiscard]] std::size_t size() const { return side_.size(); }
-  [[nodiscard]] bool empty() const { return side_.empty(); }
+  [[nodiscard]] std::size_t size() const { return side_.size(); }  ///< number of placements
+  [[nodiscard]] bool empty() const { return side_.empty(); }       ///< size() == 0
 
   /// Makes room for @p count placements. @note Allocates.
   void reserve(std::size_t count) {
@@ -25,6 +25,7 @@ class PlacementBatch {
     for (std::vector<T>* component : components()) component->reserve(count);
   }
 
+  /// Forgets all placements and keeps their room.
   void clear() {
     side_.clear();
     for (std::vector<T>* component : components()) component->clear();
@@ -55,13 +56,13 @@ class PlacementBatch {
   }
 
   /// Components of WheelPlacement, by index.
-  [[nodiscard]] const std::vector<T>& lateral_rail() const { return y_; }  ///< [m]
-  [[nodiscard]] const std::vector<T>& up_rail() const { return z_; }       ///< [m]
-  [[nodiscard]] const std::vector<T>& sin_yaw() const { return sin_yaw_; }
-  [[nodiscard]] const std::vector<T>& cos_yaw() const { return cos_yaw_; }
-  [[nodiscard]] const std::vector<T>& tan_yaw() const { return tan_yaw_; }
-  [[nodiscard]] const std::vector<T>& sin_roll() const { return sin_roll_; }
-  [[nodiscard]] const std::vector<T>& cos_roll() const { return cos_roll_; }
+  [[nodiscard]] const std::vector<T>& lateral_rail() const { return y_; }     ///< [m]
+  [[nodiscard]] const std::vector<T>& up_rail() const { return z_; }          ///< [m]
+  [[nodiscard]] const std::vector<T>& sin_yaw() const { return sin_yaw_; }    ///< [-]
+  [[nodiscard]] const std::vector<T>& cos_yaw() const { return cos_yaw_; }    ///< [-]
+  [[nodiscard]] const std::vector<T>& tan_yaw() const { return tan_yaw_; }    ///< [-]
+  [[nodiscard]] const std::vector<T>& sin_roll() const { return sin_roll_; }  ///< [-]
+  [[nodiscard]] const std::vector<T>& cos_roll() const { return cos_roll_; }  ///< [-]
 
  private:
   [[nodiscard]] std::array<std::vector<T>*, 9> components() {

@@ -4,7 +4,7 @@
 /// cross-section plane. Closed form where the profile has one, bracketed Newton otherwise.
 /// May include: core, numerics, profile, surface.
 
-#include <wheelrail/numerics/bracketed_root.hpp>
+#include <wheelrail/numerics/lifted_root.hpp>
 #include <wheelrail/surface/rail.hpp>
 
 namespace wheelrail {
@@ -48,21 +48,21 @@ template <Profile P>
   if (at_upper < T(0)) return detail::foot_on_tangent(profile.upper(), highest, lateral, up);
   // The equation rises by 1 at least outside a convex profile: its residual bounds the step.
   const T tolerance = T(8) * epsilon<T>() * (profile.upper() - profile.lower());
+  const auto residual = [&](const T& u) {
+    const ProfilePoint<T> point = profile.evaluate(u);
+    return ValueAndSlope<T>{equation(u, point), T(1) + point.slope * point.slope +
+                                                    (point.value - up) * point.second_derivative};
+  };
   const auto root = bracketed_newton<T>(
-      [&](const T& u) {
-        const ProfilePoint<T> point = profile.evaluate(u);
-        return ValueAndSlope<T>{
-            equation(u, point),
-            T(1) + point.slope * point.slope + (point.value - up) * point.second_derivative};
-      },
-      profile.lower(), profile.upper(), at_lower, at_upper, lateral,
+      residual, profile.lower(), profile.upper(), at_lower, at_upper, lateral,
       {.step_tolerance = tolerance, .residual_tolerance = tolerance, .maximum_iterations = 60});
-  const ProfilePoint<T> point = profile.evaluate(root.position);
+  const T foot_lateral = lifted_root<T>(value_of(root.position), residual);
+  const ProfilePoint<T> point = profile.evaluate(foot_lateral);
   const T cosine = T(1) / sqrt(T(T(1) + point.slope * point.slope));
   const Vector2<T> normal_rail(-point.slope * cosine, cosine);
   ClosestPoint<T> foot{
-      root.position,
-      (root.position - lateral) * normal_rail.x() + (point.value - up) * normal_rail.y(),
+      foot_lateral,
+      (foot_lateral - lateral) * normal_rail.x() + (point.value - up) * normal_rail.y(),
       normal_rail, curvature(point)};
   if (root.status != SolveStatus::converged) foot.penetration = T(0) / T(0);
   return foot;

@@ -28,7 +28,7 @@ struct RememberedPart {
   int left_index = -1, right_index = -1;  // among the wheel's strips, if they are
   // The penetration has one extremum at most; otherwise nothing is known.
   bool is_simple = false;
-  T extremum{};  // where it was last
+  T extremum = T(0);  // where it was last
   // What lies to the left: nothing near the rail, another piece, or a part with the same strip.
   enum class Joins { apart, joint, same } joins = Joins::apart;
 };
@@ -128,7 +128,7 @@ class SearchMemory {
 
  private:
   struct ZoneEnd {
-    T lateral{}, inside{}, depth{};
+    T lateral = T(0), inside = T(0), depth = T(0);
   };
   using ZoneEnds = FixedList<ZoneEnd, 16>;
 
@@ -144,9 +144,9 @@ class SearchMemory {
   std::size_t count_ = 0;
   ZoneEnds zone_ends_, last_zone_ends_;
   bool is_valid_ = false;
-  T checksum_{};
-  T threshold_{};
-  T lateral_{}, up_{};
+  T checksum_ = T(0);
+  T threshold_ = T(0);
+  T lateral_ = T(0), up_ = T(0);
   Vector3<T> axle_rail_ = Vector3<T>::UnitY();
 };
 

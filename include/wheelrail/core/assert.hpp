@@ -5,4 +5,5 @@
 
 #include <cassert>
 
+/// Ends the program unless @p condition holds; nothing under NDEBUG.
 #define WHEELRAIL_ASSERT(condition) assert(condition)

@@ -18,22 +18,26 @@ template <class Element, std::size_t Capacity>
 class FixedList {
  public:
   constexpr FixedList() : size_(0) {}
+  /// The same elements.
   constexpr FixedList(const FixedList& other) : FixedList() { append(other); }
+  /// Moves the elements one by one.
   constexpr FixedList(FixedList&& other) noexcept(std::is_nothrow_move_constructible_v<Element>)
       : FixedList() {
     append(std::move(other));
   }
+  /// The same elements.
   constexpr FixedList& operator=(const FixedList& other) { return assign(other); }
+  /// Moves the elements one by one.
   constexpr FixedList& operator=(FixedList&& other) noexcept(
       std::is_nothrow_move_constructible_v<Element>) {
     return assign(std::move(other));
   }
   constexpr ~FixedList() { clear(); }
 
-  [[nodiscard]] constexpr std::size_t size() const { return size_; }
-  [[nodiscard]] constexpr bool empty() const { return size_ == 0; }
-  [[nodiscard]] constexpr bool full() const { return size_ == Capacity; }
-  [[nodiscard]] static constexpr std::size_t capacity() { return Capacity; }
+  [[nodiscard]] constexpr std::size_t size() const { return size_; }       ///< number of elements
+  [[nodiscard]] constexpr bool empty() const { return size_ == 0; }        ///< size() == 0
+  [[nodiscard]] constexpr bool full() const { return size_ == Capacity; }  ///< size() == Capacity
+  [[nodiscard]] static constexpr std::size_t capacity() { return Capacity; }  ///< most elements
 
   /// Appends @p element. @return false, and nothing changes, when the list is full.
   [[nodiscard]] constexpr bool push_back(const Element& element) {
@@ -42,6 +46,7 @@ class FixedList {
     return true;
   }
 
+  /// Destroys all elements.
   constexpr void clear() {
     if constexpr (!std::is_trivially_destructible_v<Element>) std::destroy(begin(), end());
     size_ = 0;
@@ -52,15 +57,17 @@ class FixedList {
     WHEELRAIL_ASSERT(index < size_);
     return elements_[index];
   }
+  /// @pre index < size()
   [[nodiscard]] constexpr Element& operator[](std::size_t index) {
     WHEELRAIL_ASSERT(index < size_);
     return elements_[index];
   }
 
-  [[nodiscard]] constexpr const Element* begin() const { return elements_; }
+  [[nodiscard]] constexpr const Element* begin() const { return elements_; }  ///< the first one
+  /// Behind the last one.
   [[nodiscard]] constexpr const Element* end() const { return elements_ + size_; }
-  [[nodiscard]] constexpr Element* begin() { return elements_; }
-  [[nodiscard]] constexpr Element* end() { return elements_ + size_; }
+  [[nodiscard]] constexpr Element* begin() { return elements_; }        ///< the first one
+  [[nodiscard]] constexpr Element* end() { return elements_ + size_; }  ///< behind the last one
 
  private:
   template <class Source>

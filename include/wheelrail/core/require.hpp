@@ -1,9 +1,11 @@
 #pragma once
 /// @file
 /// Checks of data from outside, at construction: an error names the thing, its value and the rule
-/// that it broke. May include: core, std.
+/// that it broke. The one place that throws; without exceptions (-fno-exceptions) the same message
+/// is printed and the program ended. May include: core, std.
 
 #include <cstdio>
+#include <cstdlib>
 #include <initializer_list>
 #include <stdexcept>
 #include <string>
@@ -33,17 +35,32 @@ template <Real T>
   }
 }
 
+/// Refuses what a construction was given; all errors of the library end here.
+/// @throws Error with @p message. Where the program is compiled without exceptions, prints the
+///   message as one line to stderr and aborts. One program is to be compiled either way as a whole:
+///   of an inline function the linker keeps one.
+template <class Error = std::invalid_argument>
+[[noreturn]] inline void throw_or_abort(const std::string& message) {
+#if defined(__cpp_exceptions)
+  throw Error(message);
+#else
+  std::fputs(message.c_str(), stderr);
+  std::fputc('\n', stderr);
+  std::abort();
+#endif
+}
+
 /// @throws std::invalid_argument "<name> is <value>, but must be <rule>" unless @p holds.
 template <Real T>
 inline void require(bool holds, const std::string& name, const T& value, const std::string& rule) {
   if (!holds) {
-    throw std::invalid_argument(joined({name, " is ", to_text(value), ", but must be ", rule}));
+    throw_or_abort(joined({name, " is ", to_text(value), ", but must be ", rule}));
   }
 }
 
 /// @throws std::invalid_argument with @p message unless @p holds.
 inline void require(bool holds, const std::string& message) {
-  if (!holds) throw std::invalid_argument(message);
+  if (!holds) throw_or_abort(message);
 }
 
 /// @throws std::invalid_argument unless @p value is finite.

@@ -48,7 +48,7 @@ template <Real T>
   return constant<T>(3.14159265358979323846264338327950288L);
 }
 
-/// True unless @p x is NaN or infinite. Needs no <cmath> classification of @p T.
+/// True unless @p x is NaN or infinite. Needs no `<cmath>` classification of @p T.
 template <Real T>
 [[nodiscard]] constexpr bool is_finite(const T& x) {
   return x - x == T(0);

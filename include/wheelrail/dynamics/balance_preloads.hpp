@@ -13,17 +13,17 @@ namespace wheelrail {
 
 /// One component of the preload of model().spring_dampers[spring_damper].
 struct PreloadComponent {
-  std::size_t spring_damper = 0;
-  int axis = 2;  ///< 0, 1, 2: a's x, y, z
+  std::size_t spring_damper = 0;  ///< index in the model
+  int axis = 2;                   ///< 0, 1, 2: a's x, y, z
 };
 
 /// Invariant: status == converged implies residual <= sqrt(epsilon<T>()). iteration_limit: these
 /// preloads cannot balance what acts; they are the best in the sense of least squares.
 template <Real T>
 struct PreloadBalance {
-  MultibodyModel<T> model;  ///< with the new preloads
-  SolveStatus status = SolveStatus::not_finite;
-  T residual{};  ///< the greatest |acceleration| that is left [m/s2, rad/s2]
+  MultibodyModel<T> model;                       ///< with the new preloads
+  SolveStatus status = SolveStatus::not_finite;  ///< converged: all is balanced
+  T residual = T(0);  ///< the greatest |acceleration| that is left [m/s2, rad/s2]
 };
 
 /// The accelerations of @p coordinates are made to vanish in the state @p y by the change of

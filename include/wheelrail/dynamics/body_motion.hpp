@@ -21,6 +21,7 @@ struct BodyMotion {
   Vector3<T> angular_velocity_world = Vector3<T>::Zero();  ///< [rad/s]
 };
 
+/// That of a body in the state @p state.
 template <Real T>
 [[nodiscard]] BodyMotion<T> body_motion(const RigidBodyState<T>& state) {
   const Matrix3<T> body_to_world = rotation_matrix(state.orientation);

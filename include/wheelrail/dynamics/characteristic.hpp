@@ -14,8 +14,8 @@ namespace wheelrail {
 /// One row of a table.
 template <Real T>
 struct CharacteristicPoint {
-  T x{};      ///< displacement [m] or velocity [m/s]
-  T force{};  ///< [N]
+  T x = T(0);      ///< displacement [m] or velocity [m/s]
+  T force = T(0);  ///< [N]
 };
 
 /// A force that nowhere falls as x grows, piecewise linear; zero by default.
@@ -129,8 +129,9 @@ class Characteristic {
   /// The straight line through the end (x, force) of the stretch that is nearer to zero, so that an
   /// odd table gives odd forces bit for bit between its rows.
   struct Segment {
-    T begin{}, begin_force{};  ///< the left end; the first segment reaches to minus infinity
-    T x{}, force{}, energy{}, slope{};
+    T begin = T(0),
+      begin_force = T(0);  ///< the left end; the first segment reaches to minus infinity
+    T x = T(0), force = T(0), energy = T(0), slope = T(0);
 
     [[nodiscard]] T force_at(const T& at) const { return force + slope * (at - x); }
     [[nodiscard]] T energy_at(const T& at) const {

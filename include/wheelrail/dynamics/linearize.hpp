@@ -39,12 +39,12 @@ struct LinearizationOptions {
 /// Invariant: state_matrix is square, with 2 coordinate_count + elongation_count rows.
 template <Real T>
 struct Linearization {
-  using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+  using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;  ///< of any size
 
-  Matrix state_matrix;  ///< SI units: m and rad, s
-  Eigen::Index coordinate_count = 0;
-  Eigen::Index elongation_count = 0;
-  T residual{};  ///< the greatest |acceleration| in the state itself, 0 at rest [m/s2, rad/s2]
+  Matrix state_matrix;                ///< SI units: m and rad, s
+  Eigen::Index coordinate_count = 0;  ///< number of q
+  Eigen::Index elongation_count = 0;  ///< number of x
+  T residual = T(0);  ///< the greatest |acceleration| in the state itself, 0 at rest [m/s2, rad/s2]
 
   /// -M^-1 K of a textbook, whose units are those of [1/s2] with m and rad as they stand.
   [[nodiscard]] Matrix acceleration_by_displacement() const {
@@ -151,8 +151,8 @@ template <Real T>
 template <std::floating_point T>
 struct Eigenmode {
   std::complex<T> eigenvalue;  ///< [1/s]
-  T frequency{};      ///< |eigenvalue| / (2 pi): of an oscillator the natural one, undamped [Hz]
-  T damping_ratio{};  ///< -Re eigenvalue / |eigenvalue| [-]; +-1 where nothing oscillates
+  T frequency = T(0);  ///< |eigenvalue| / (2 pi): of an oscillator the natural one, undamped [Hz]
+  T damping_ratio = T(0);  ///< -Re eigenvalue / |eigenvalue| [-]; +-1 where nothing oscillates
   /// Amplitudes of the coordinates [m, rad], in their order; the greatest is 1.
   Eigen::Matrix<std::complex<T>, Eigen::Dynamic, 1> shape;
 };
@@ -160,8 +160,8 @@ struct Eigenmode {
 /// Invariant: status == converged, or modes is empty.
 template <std::floating_point T>
 struct Eigenmodes {
-  std::vector<Eigenmode<T>> modes;  ///< from the lowest frequency
-  SolveStatus status = SolveStatus::not_finite;
+  std::vector<Eigenmode<T>> modes;               ///< from the lowest frequency
+  SolveStatus status = SolveStatus::not_finite;  ///< converged: all modes were found
 };
 
 /// The modes of @p system; one for each pair of conjugate eigenvalues, one for each real one.

@@ -16,16 +16,16 @@ namespace wheelrail {
 /// ground.
 template <Real T>
 struct MultibodyModel {
-  std::vector<RigidBody<T>> bodies;
-  std::vector<RevoluteJoint<T>> joints;
-  std::vector<SpringDamper<T>> spring_dampers;
-  std::vector<TorsionSpring<T>> torsion_springs;
+  std::vector<RigidBody<T>> bodies;               ///< named by their index
+  std::vector<RevoluteJoint<T>> joints;           ///< hinges between two bodies
+  std::vector<SpringDamper<T>> spring_dampers;    ///< between two bodies
+  std::vector<TorsionSpring<T>> torsion_springs;  ///< between two bodies, about one axis
   /// [m/s2]
   Vector3<T> gravity_world = Vector3<T>(T(0), T(0), constant<T>(-9.81L));
   /// Baumgarte's alpha and beta in (91), where the paper has 5 for both: a violated constraint
   /// obeys Phi'' + 2 alpha Phi' + beta^2 Phi = 0; >= 0 [1/s].
   T baumgarte_alpha = T(5);
-  T baumgarte_beta = T(5);
+  T baumgarte_beta = T(5);  ///< see baumgarte_alpha [1/s]
 };
 
 namespace detail {

@@ -24,8 +24,8 @@ namespace wheelrail {
 /// How far a state is from its constraints: the greatest |Phi| [m, -] and |dPhi/dt| [m/s, 1/s].
 template <Real T>
 struct ConstraintViolation {
-  T residual{};
-  T residual_rate{};
+  T residual = T(0);       ///< the greatest |Phi| [m, -]
+  T residual_rate = T(0);  ///< the greatest |dPhi/dt| [m/s, 1/s]
 };
 
 /// The state is a column: thirteen numbers per body (RigidBodyLayout), then the elongations of the
@@ -51,9 +51,10 @@ class MultibodySystem {
     }
   }
 
-  [[nodiscard]] const MultibodyModel<T>& model() const { return model_; }
+  [[nodiscard]] const MultibodyModel<T>& model() const { return model_; }  ///< as it was given
+  /// Without the ground.
   [[nodiscard]] std::size_t body_count() const { return model_.bodies.size(); }
-  [[nodiscard]] Eigen::Index state_size() const { return state_size_; }
+  [[nodiscard]] Eigen::Index state_size() const { return state_size_; }  ///< numbers in the state
 
   /// dy/dt: the right-hand side of an integrator.
   /// @param external_wrenches on each body, without gravity, joints and elements: contact, say.
@@ -98,6 +99,7 @@ class MultibodySystem {
     return {};
   }
 
+  /// Of all joints in the state @p y.
   template <StateVector State>
   [[nodiscard]] ConstraintViolation<T> constraint_violation(const State& y) const {
     const Motions motions = motions_of(y);

@@ -17,7 +17,7 @@ using Vector5 = Eigen::Matrix<T, 5, 1, Eigen::DontAlign>;
 /// d2 Phi/dt2 = jacobians[0] q''_a + jacobians[1] q''_b - gamma.
 template <Real T>
 struct JointEquations {
-  using Jacobian = Eigen::Matrix<T, 5, 6, Eigen::DontAlign>;
+  using Jacobian = Eigen::Matrix<T, 5, 6, Eigen::DontAlign>;  ///< of one body, by columns as below
 
   Vector5<T> residual;       ///< Phi [m, -]
   Vector5<T> residual_rate;  ///< dPhi/dt [m/s, 1/s]

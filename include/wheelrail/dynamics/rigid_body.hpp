@@ -81,6 +81,7 @@ struct Wrench {
   Vector3<T> force_world = Vector3<T>::Zero();   ///< [N]
   Vector3<T> moment_world = Vector3<T>::Zero();  ///< [N m]
 
+  /// Adds force and moment. @pre both are about the same point
   Wrench& operator+=(const Wrench& other) {
     force_world += other.force_world;
     moment_world += other.moment_world;

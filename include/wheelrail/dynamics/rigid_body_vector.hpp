@@ -11,11 +11,11 @@ namespace wheelrail {
 
 /// Where a body's numbers stand within its thirteen.
 struct RigidBodyLayout {
-  static constexpr Eigen::Index position_world = 0;
-  static constexpr Eigen::Index orientation = 3;
-  static constexpr Eigen::Index velocity_world = 7;
-  static constexpr Eigen::Index angular_velocity_body = 10;
-  static constexpr Eigen::Index size = 13;
+  static constexpr Eigen::Index position_world = 0;  ///< index of the first of 3 [m]
+  static constexpr Eigen::Index orientation = 3;  ///< index of the first of 4 Euler parameters [-]
+  static constexpr Eigen::Index velocity_world = 7;          ///< index of the first of 3 [m/s]
+  static constexpr Eigen::Index angular_velocity_body = 10;  ///< index of the first of 3 [rad/s]
+  static constexpr Eigen::Index size = 13;                   ///< numbers of one body
 
   /// Where body @p index begins in the column of a system.
   [[nodiscard]] static constexpr Eigen::Index offset(Eigen::Index index) { return size * index; }

@@ -17,8 +17,8 @@ enum class Displacement { x, y, z, roll, pitch, yaw };
 
 /// One of the six displacements of one body.
 struct BodyDisplacement {
-  int body = 0;
-  Displacement direction = Displacement::z;
+  int body = 0;                              ///< its index in the model
+  Displacement direction = Displacement::z;  ///< which of the six
 };
 
 /// Wrenches on all bodies from the state, as MultibodySystem::rate takes them.
@@ -37,6 +37,7 @@ template <Real T>
 
 }  // namespace detail
 
+/// When the search for an equilibrium ends, and its steps.
 template <Real T>
 struct EquilibriumOptions {
   /// |acceleration| <= tolerance in all coordinates ends the search [m/s2, rad/s2], > 0; the
@@ -54,10 +55,10 @@ struct EquilibriumOptions {
 /// that was taken.
 template <StateVector State>
 struct EquilibriumResult {
-  State state;
-  SolveStatus status = SolveStatus::not_finite;
-  int iterations = 0;                 ///< steps tried
-  typename State::Scalar residual{};  ///< the greatest |acceleration| [m/s2, rad/s2]
+  State state;                                   ///< as MultibodySystem has it
+  SolveStatus status = SolveStatus::not_finite;  ///< converged: at rest
+  int iterations = 0;                            ///< steps tried
+  typename State::Scalar residual{};             ///< the greatest |acceleration| [m/s2, rad/s2]
 };
 
 /// @return @p y with body @p coordinate.body displaced by @p amount [m] or [rad].

@@ -24,8 +24,8 @@ struct TorsionSpring {
 /// The roll of b against a.
 template <Real T>
 struct RelativeRoll {
-  T angle{};                  ///< in (-pi, pi] [rad]
-  T rate{};                   ///< its derivative in time [rad/s]
+  T angle = T(0);             ///< in (-pi, pi] [rad]
+  T rate = T(0);              ///< its derivative in time [rad/s]
   Vector3<T> gradient_world;  ///< rate = gradient . (angular velocity of b - of a) [-]
 };
 

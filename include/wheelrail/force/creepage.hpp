@@ -12,9 +12,9 @@ namespace wheelrail {
 /// Of the wheel against the rail, in the contact frame.
 template <Real T>
 struct Creepage {
-  T longitudinal{};  ///< xi_x [-]
-  T lateral{};       ///< xi_y [-]
-  T spin{};          ///< phi [1/m]
+  T longitudinal = T(0);  ///< xi_x [-]
+  T lateral = T(0);       ///< xi_y [-]
+  T spin = T(0);          ///< phi [1/m]
 };
 
 /// How creepages stay finite at rest.

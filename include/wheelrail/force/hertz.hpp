@@ -6,6 +6,7 @@
 /// Mechanics, ch. 4). May include: core, numerics.
 
 #include <wheelrail/core/require.hpp>
+#include <wheelrail/core/scalar_value.hpp>
 #include <wheelrail/force/material.hpp>
 #include <wheelrail/numerics/elliptic_integral.hpp>
 
@@ -14,8 +15,8 @@ namespace wheelrail {
 /// The relative curvatures of two bodies whose principal directions are aligned [1/m].
 template <Real T>
 struct HertzCurvatures {
-  T longitudinal{};  ///< A of (68): half the sum of both bodies' curvatures along the rolling
-  T lateral{};       ///< B of (69): half the sum of those across
+  T longitudinal = T(0);  ///< A of (68): half the sum of both bodies' curvatures along the rolling
+  T lateral = T(0);       ///< B of (69): half the sum of those across
 };
 
 /// (68) and (69) from the curvatures of the two bodies [1/m], positive where a body is convex.
@@ -32,13 +33,17 @@ struct HertzOptions {
   /// B is taken as max(B, this) [1/m], > 0. A CHOICE of this library: where fillet and gauge corner
   /// conform, B falls to zero or below and Hertz is singular. 0.25 1/m is a radius of 2 m.
   T minimum_lateral_curvature = constant<T>(0.25L);
+  /// Where |B - minimum_lateral_curvature| < bound_width [1/m], a parabola passes from one to the
+  /// other without a kink. Where 0, max(B, minimum) has its kink.
+  T bound_width = T(0);
 };
 
-/// @throws std::invalid_argument unless the bound is finite and > 0.
+/// @throws std::invalid_argument unless the bound is finite and > 0, and its width finite and >= 0.
 template <Real T>
 void validate(const HertzOptions<T>& options) {
   detail::require_positive("Hertz: minimum lateral curvature", options.minimum_lateral_curvature,
                            "[1/m]");
+  detail::require_not_negative("Hertz: bound width", options.bound_width, "[1/m]");
 }
 
 /// How the shape of a contact came about.
@@ -77,19 +82,32 @@ template <Real T>
   return x == T(0) ? T(0) : T(exp(T(log(x) / T(3))));
 }
 
+// Near ln g for ln ratio: odd, with the slope -2/3 at 0. The fit, through Chebyshev's nodes, is good to
+// 6e-9 up to a ratio of 100, beyond any wheel on a rail, and to 0.02 up to 1e6; it saves steps and
+// decides nothing.
+template <Real T>
+[[nodiscard]] T log_axis_ratio_start(const T& log_ratio) {
+  const T s = log_ratio * log_ratio;
+  return constant<T>(-2.0L / 3.0L) * log_ratio *
+         (T(1) + s * (constant<T>(0.100726192L) +
+                      s * (constant<T>(0.00255885389L) + s * constant<T>(1.27582432e-5L)))) /
+         (T(1) + s * (constant<T>(0.105355819L) +
+                      s * (constant<T>(0.00285371961L) + s * constant<T>(1.55538714e-5L))));
+}
+
 }  // namespace detail
 
 /// What the curvatures alone decide. Invariants, to rounding: 0 < axis_ratio <= 1;
 /// rolling_is_major == (A <= bounded B).
 template <Real T>
 struct HertzShape {
-  T axis_ratio{};                ///< minor over major axis g [-]
-  T major_cubed{};               ///< m^3 [-]
-  T stiffness_coefficient{};     ///< C of (67) [-], 1/pi for a circle
-  T curvature_sum{};             ///< A + B, B bounded [1/m]
-  bool rolling_is_major = true;  ///< the ellipse's major axis lies along the rolling
-  int iterations = 0;            ///< Newton steps
-  HertzStatus status = HertzStatus::not_finite;
+  T axis_ratio = T(0);             ///< minor over major axis g [-]
+  T major_cubed = T(0);            ///< m^3 [-]
+  T stiffness_coefficient = T(0);  ///< C of (67) [-], 1/pi for a circle
+  T curvature_sum = T(0);          ///< A + B, B bounded [1/m]
+  bool rolling_is_major = true;    ///< the ellipse's major axis lies along the rolling
+  int iterations = 0;              ///< Newton steps
+  HertzStatus status = HertzStatus::not_finite;  ///< what the curvatures allowed
 
   /// m of (75) [-]
   [[nodiscard]] T major_coefficient() const { return detail::cube_root(major_cubed); }
@@ -100,15 +118,17 @@ struct HertzShape {
 /// The semi-axes of a contact [m]: a along the rolling, b across. Both are 0 without a force.
 template <Real T>
 struct HertzEllipse {
-  T a{};
-  T b{};
+  T a = T(0);  ///< along the rolling [m]
+  T b = T(0);  ///< across it [m]
 };
 
 /// The shape of the contact, by Newton's method for ln g on the logarithm of the curvature ratio:
 /// nearly a straight line, so that from its fit one step reaches rounding in double.
 /// @param curvatures [1/m]; longitudinal > 0, which a wheel on a rail always has.
-/// @return see HertzStatus. Smooth in the curvatures, also where A = B; a kink at the bound of B.
-/// @note No allocation. The last Newton step, at the root, lifts it to derivatives.
+/// @return see HertzStatus. Smooth in the curvatures, also where A = B; a kink at the bound of B
+///   unless HertzOptions::bound_width > 0.
+/// @note No allocation. Differentiable: dual numbers take one Newton step more, from the root of their
+///   values.
 template <Real T>
 [[nodiscard]] HertzShape<T> hertz_shape(const HertzCurvatures<T>& curvatures,
                                         const HertzOptions<T>& options = {}) {
@@ -127,24 +147,31 @@ template <Real T>
     return shape;
   }
   const bool bounded = curvatures.lateral < options.minimum_lateral_curvature;
-  const T b = bounded ? options.minimum_lateral_curvature : curvatures.lateral;
+  T b = bounded ? options.minimum_lateral_curvature : curvatures.lateral;
+  const T& width = options.bound_width;
+  if (b < options.minimum_lateral_curvature + width) {
+    // Of the parabola's abscissa, from 0 to 2 width.
+    const T past =
+        detail::max(T(curvatures.lateral - options.minimum_lateral_curvature + width), T(0));
+    b = options.minimum_lateral_curvature + past * past / (T(4) * width);
+  }
   shape.status = bounded ? HertzStatus::lateral_curvature_bounded : HertzStatus::regular;
   shape.curvature_sum = a + b;
   shape.rolling_is_major = a <= b;
   const T ratio = shape.rolling_is_major ? T(b / a) : T(a / b);
   const T log_ratio = log(ratio);
-  // ln g is odd in ln ratio, with the slope -2/3 at 0. The fit, through Chebyshev's nodes, is good
-  // to 6e-9 up to a ratio of 100, beyond any wheel on a rail, and to 0.02 up to 1e6; it saves steps
-  // and decides nothing.
-  const T s = log_ratio * log_ratio;
-  T x = constant<T>(-2.0L / 3.0L) * log_ratio *
-        (T(1) + s * (constant<T>(0.100726192L) +
-                     s * (constant<T>(0.00255885389L) + s * constant<T>(1.27582432e-5L)))) /
-        (T(1) + s * (constant<T>(0.105355819L) +
-                     s * (constant<T>(0.00285371961L) + s * constant<T>(1.55538714e-5L))));
-  T g{};
-  T first{};
-  T second{};
+  T x = detail::log_axis_ratio_start(log_ratio);
+  int steps = 1;  // at least
+  if constexpr (has_derivatives<T>) {
+    const auto found =
+        hertz_shape(HertzCurvatures<ValueOf<T>>{value_of(a), value_of(b)},
+                    HertzOptions<ValueOf<T>>{value_of(options.minimum_lateral_curvature)});
+    x = T(ValueOf<T>(log(found.axis_ratio)));
+    steps = ScalarTraits<T>::lifting_steps;
+  }
+  T g = T(0);
+  T first = T(0);
+  T second = T(0);
   bool converged = false;
   while (!converged && shape.iterations < maximum_iterations) {
     g = exp(x);
@@ -158,7 +185,7 @@ template <Real T>
     ++shape.iterations;
     // Newton's method squares its error, and so do the integrals carried over the last step by
     // their slopes: what is left is the square of the step.
-    converged = step * step <= epsilon<T>();
+    converged = step * step <= epsilon<T>() && steps <= shape.iterations;
     first = integrals.first - integrals.b * step;
     second = integrals.second + g * g * integrals.d * step;
     g = g + g * step;

@@ -15,10 +15,10 @@ namespace wheelrail {
 /// F_x = -G a b c11 xi_x, F_y = -G a b (c22 xi_y + sqrt(a b) c23 phi). c32 = -c23.
 template <Real T>
 struct KalkerCoefficients {
-  T c11{};  ///< longitudinal force of longitudinal creepage
-  T c22{};  ///< lateral force of lateral creepage
-  T c23{};  ///< lateral force of spin
-  T c33{};  ///< spin moment of spin; Polach's forces do without
+  T c11 = T(0);  ///< longitudinal force of longitudinal creepage
+  T c22 = T(0);  ///< lateral force of lateral creepage
+  T c23 = T(0);  ///< lateral force of spin
+  T c33 = T(0);  ///< spin moment of spin; Polach's forces do without
 };
 
 namespace detail {
@@ -50,8 +50,8 @@ inline constexpr std::array<std::array<long double, 12>, 19> kalker_1990{{
 // A coefficient's asymptote and its derivative d ln(value) / d ln g.
 template <Real T>
 struct KalkerAsymptote {
-  T value{};
-  T log_slope{};
+  T value = T(0);
+  T log_slope = T(0);
 };
 
 // c11, c22 and c23 for g = a/b -> 0: Kalker (1990), appendix E.
@@ -116,6 +116,7 @@ class KalkerTable {
     long_blends_ = blends(last, detail::kalker_long_asymptotes(poisson_ratio_, end));
   }
 
+  /// Poisson's ratio that the coefficients are for [-].
   [[nodiscard]] T poisson_ratio() const { return poisson_ratio_; }
 
   /// @param a, b the semi-axes along and across the rolling [m], > 0; only a/b counts. Both zero,
@@ -160,7 +161,7 @@ class KalkerTable {
     }
   };
   struct Blend {
-    T linear{}, quadratic{};
+    T linear = T(0), quadratic = T(0);
     [[nodiscard]] T at(const T& t) const { return T(1) + t * (linear + t * quadratic); }
   };
 
@@ -214,7 +215,7 @@ class KalkerTable {
     return {value(0), value(1), value(2), detail::kalker_powers(node(i))[3] * curves_[3].value[i]};
   }
 
-  T poisson_ratio_{};
+  T poisson_ratio_ = T(0);
   std::array<Curve, 4> curves_{};
   std::array<Blend, 3> short_blends_{};
   std::array<Blend, 3> long_blends_{};

@@ -12,8 +12,8 @@ namespace wheelrail {
 /// A linear elastic, isotropic material.
 template <Real T>
 struct Material {
-  T young_modulus{};  ///< [Pa], > 0
-  T poisson_ratio{};  ///< [-], in [0, 0.5)
+  T young_modulus = T(0);  ///< [Pa], > 0
+  T poisson_ratio = T(0);  ///< [-], in [0, 0.5)
 };
 
 /// Steel as in Table 1 of the paper: 206 GPa, 0.296.
@@ -70,9 +70,9 @@ class MaterialPair {
            (pi<T>() * material.young_modulus);
   }
 
-  T compliance_{};
-  T shear_modulus_{};
-  T poisson_ratio_{};
+  T compliance_ = T(0);
+  T shear_modulus_ = T(0);
+  T poisson_ratio_ = T(0);
 };
 
 }  // namespace wheelrail

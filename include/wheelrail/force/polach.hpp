@@ -10,38 +10,40 @@
 #include <wheelrail/force/creepage.hpp>
 #include <wheelrail/force/hertz.hpp>
 #include <wheelrail/force/kalker.hpp>
+#include <wheelrail/numerics/detail/arc_tangent.hpp>
 
 namespace wheelrail {
 
 /// What a contact brings to its creep forces besides the creepages.
 template <Real T>
 struct PolachContact {
-  HertzEllipse<T> ellipse;       ///< of normal_force
-  KalkerCoefficients<T> kalker;  ///< of the ellipse
-  T shear_modulus{};             ///< G [Pa], > 0: MaterialPair::shear_modulus
-  T friction_coefficient{};      ///< mu [-], >= 0
-  T normal_force{};              ///< f_n [N], >= 0
+  HertzEllipse<T> ellipse;        ///< of normal_force
+  KalkerCoefficients<T> kalker;   ///< of the ellipse
+  T shear_modulus = T(0);         ///< G [Pa], > 0: MaterialPair::shear_modulus
+  T friction_coefficient = T(0);  ///< mu [-], >= 0
+  T normal_force = T(0);          ///< f_n [N], >= 0
+  /// [-], >= 0: |xi_yC| of (86) is the greater of |xi_y| and |xi_y + a phi|, with a corner where they
+  /// are equal. It is rounded off where they differ by no more than this; 0: it is not.
+  T creepage_rounding = T(0);
 };
 
 /// On the wheel, in the contact frame of creepage.hpp [N]; the rail takes the opposite.
 template <Real T>
 struct CreepForce {
-  T longitudinal{};
-  T lateral{};
+  T longitudinal = T(0);  ///< along x of that frame [N]
+  T lateral = T(0);       ///< along y of that frame [N]
 };
 
 namespace detail {
 
-// Eigen's AutoDiffScalar has no atan; elsewhere it costs less than half of atan2.
+// |xi_yC| of (86) from xi_y and xi_y + a phi. Rounded off, magnitudes and their maximum are hyperbolas.
 template <Real T>
-[[nodiscard]] T arc_tangent(const T& x) {
-  using std::atan;
-  using std::atan2;
-  if constexpr (requires { atan(x); }) {
-    return atan(x);
-  } else {
-    return atan2(x, T(1));
-  }
+[[nodiscard]] T polach_lateral_creepage(const T& one, const T& other, const T& rounding) {
+  using std::sqrt;
+  if (!(T(0) < rounding)) return max(magnitude(other), magnitude(one));
+  const T squared = rounding * rounding;
+  const T a = sqrt(T(one * one + squared)), b = sqrt(T(other * other + squared));
+  return (a + b + sqrt(T((a - b) * (a - b) + squared))) / T(2);
 }
 
 // (1 / (1 + s) + atan(sqrt s) / sqrt s) / 2, s = eps^2: f / xi_C of (81) over that of Kalker's
@@ -65,7 +67,8 @@ template <Real T>
 /// long as longitudinal creepage does not meet lateral creepage or spin:
 /// f_x -> -G a b c11 xi_x, f_y -> -G a b (c22 xi_y + sqrt(a b) c23 phi). Read literally, the paper
 /// gives the force on the rail. The moment about the normal is neglected, as in the paper.
-/// @return [N], of magnitude <= mu f_n; exactly 0 where mu f_n = 0. Continuous. Where (xi_x, xi_y)
+/// @return [N], of magnitude <= mu f_n; exactly 0 where mu f_n = 0. Continuous; with a kink
+///   where |xi_y| = |xi_y + a phi|, unless creepage_rounding > 0. Where (xi_x, xi_y)
 ///   vanishes, c_jj of (83) and with it the derivative depends on the direction of approach; there
 ///   c11 stands for it in f_x and c22 in f_y, so that automatic derivatives are Kalker's.
 /// @note No allocation. NaN in gives NaN in what depends on it.
@@ -82,7 +85,7 @@ template <Real T>
   const T& xi_y = creepage.lateral;
   // |xi_yC| of (86), and (84), (85) squared.
   const T lateral =
-      detail::max(detail::magnitude(T(xi_y + a * creepage.spin)), detail::magnitude(xi_y));
+      detail::polach_lateral_creepage(xi_y, T(xi_y + a * creepage.spin), contact.creepage_rounding);
   const T slip_squared = xi_x * xi_x + xi_y * xi_y;
   const T combined_squared = xi_x * xi_x + lateral * lateral;
 

@@ -24,6 +24,7 @@
 #include <wheelrail/io/detail/profile_text.hpp>
 #include <wheelrail/io/detail/simpack_profile.hpp>
 #include <wheelrail/io/detail/table_profile.hpp>
+#include <wheelrail/io/detail/whole_file.hpp>
 #include <wheelrail/io/profile_format.hpp>
 
 namespace wheelrail {
@@ -256,17 +257,8 @@ void write_profile(const std::filesystem::path& path, const ProfilePoints<T>& po
   detail::require(detail::extension_fits(name, kind),
                   name + ": the extension is the other kind's, but must fit the profile");
   const std::string text = profile_text(points, kind, options);
-  std::filesystem::path part = path;
-  part += ".part";
-  std::ofstream file(part, std::ios::binary);
-  file << text;
-  file.close();
-  std::error_code error;
-  if (file.good()) std::filesystem::rename(part, path, error);
-  if (!file.good() || error) {
-    std::error_code ignored;
-    std::filesystem::remove(part, ignored);
-    throw std::runtime_error(name + ": cannot be written");
+  if (!detail::write_whole_file(path, text)) {
+    detail::throw_or_abort<std::runtime_error>(name + ": cannot be written");
   }
 }
 

@@ -59,8 +59,8 @@ enum class ReadingBasis {
 /// Something read and what it rests on.
 template <class V>
 struct Reading {
-  V value{};
-  ReadingBasis basis{};
+  V value{};             ///< what was read
+  ReadingBasis basis{};  ///< what it rests on
 };
 
 /// How to read a file; what is not given here is stated in it or is detected.
@@ -75,7 +75,7 @@ struct ProfileReadOptions {
 
 /// How to write a file.
 struct ProfileWriteOptions {
-  ProfileFormat format = ProfileFormat::table;
+  ProfileFormat format = ProfileFormat::table;  ///< of the file
   LengthUnit unit = LengthUnit::metre;  ///< MiniProf knows millimetres only and ignores this
   std::vector<std::string> comments{};  ///< one line each
 };
@@ -83,13 +83,13 @@ struct ProfileWriteOptions {
 /// A profile file as read.
 template <Real T>
 struct ProfileFile {
-  ProfileKind kind{};
-  ProfileFormat format{};
-  ProfilePoints<T> points{};     ///< [m], the library's axes, from flange or gauge to field side
-  Reading<T> units_per_metre{};  ///< lengths of the file in a metre [1/m]: 1000 where in mm
-  Reading<ValueAxis> value{};
-  Reading<LateralAxis> lateral{};
-  bool reversed{};                      ///< the file runs from the field side
+  ProfileKind kind{};              ///< wheel or rail
+  ProfileFormat format{};          ///< of the file
+  ProfilePoints<T> points{};       ///< [m], the library's axes, from flange or gauge to field side
+  Reading<T> units_per_metre{};    ///< lengths of the file in a metre [1/m]: 1000 where in mm
+  Reading<ValueAxis> value{};      ///< which way the file's values grow
+  Reading<LateralAxis> lateral{};  ///< which way its lateral coordinates grow
+  bool reversed{};                 ///< the file runs from the field side
   std::vector<std::string> comments{};  ///< lines of the file that say something to people
   std::vector<std::pair<std::string, std::string>> header{};  ///< keys and values, as in the file
   std::vector<std::string> not_applied{};  ///< keys and columns that were read but change nothing

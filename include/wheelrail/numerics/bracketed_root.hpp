@@ -14,8 +14,8 @@ namespace wheelrail {
 /// A function value with its derivative.
 template <Real T>
 struct ValueAndSlope {
-  T value{};
-  T slope{};
+  T value = T(0);  ///< f(x)
+  T slope = T(0);  ///< df/dx
 };
 
 /// When an iteration for a root x of f stops: converged as soon as one of the tolerances is met.
@@ -39,17 +39,17 @@ struct RootOptions {
 /// `residual` is f at the last point that was evaluated, which the last step may have left.
 template <Real T>
 struct RootResult {
-  T position{};
-  T residual{};
+  T position = T(0);   ///< the root [unit of x]
+  T residual = T(0);   ///< f, see above [unit of f]
   int iterations = 0;  ///< evaluations of f, those at the bracket's ends not counted
-  SolveStatus status = SolveStatus::not_finite;
+  SolveStatus status = SolveStatus::not_finite;  ///< converged: it is a root
 };
 
 namespace detail {
 
 template <Real T>
 [[nodiscard]] T root_step_tolerance(const T& x, const RootOptions<T>& options) {
-  return max(options.step_tolerance, T(2) * epsilon<T>() * magnitude(x));
+  return max(options.step_tolerance, T(T(2) * epsilon<T>() * magnitude(x)));
 }
 
 /// x rounded to a multiple of about `grid`, by what a sum with a large number cannot hold.
@@ -87,7 +87,7 @@ template <Real T, class Function>
   const bool on_grid = T(0) < options.grid;
   T x = detail::clamp(on_grid ? detail::rounded_to(start, options.grid) : start, lower, upper);
   T before = x;
-  T step_before_last = upper - lower;
+  T step_before_last = upper - lower;  // their sizes
   T last_step = step_before_last;
   while (result.iterations < options.maximum_iterations) {
     const ValueAndSlope<T> at = f(x);
@@ -104,20 +104,26 @@ template <Real T, class Function>
     // unless the grid makes it so.
     const T newton = x - at.value / at.slope;
     const T newton_step = detail::magnitude(T(newton - x));
-    const bool usable = is_finite(newton) && lower < newton && newton < upper &&
-                        (T(2) * newton_step <= detail::magnitude(step_before_last) ||
-                         (on_grid && newton_step <= options.grid));
+    const bool usable =
+        lower < newton && newton < upper &&
+        (T(2) * newton_step <= step_before_last || (on_grid && newton_step <= options.grid));
     const T next = usable ? newton : T(lower + (upper - lower) / T(2));
     step_before_last = last_step;
-    last_step = next - x;
-    // Where the bracket has no multiple near the next iterate, there is no grid.
-    const T multiple = on_grid ? detail::rounded_to(next, options.grid) : next;
-    const bool fits = on_grid && (multiple == x || (lower < multiple && multiple < upper));
-    const T next_x = fits ? multiple : next;
-    const bool is_back = next_x == x || (next_x == before && 1 < result.iterations &&
-                                         detail::magnitude(last_step) <= T(2) * options.grid);
-    if (detail::magnitude(last_step) <= detail::root_step_tolerance(x, options) ||
-        (fits && is_back)) {
+    last_step = detail::magnitude(T(next - x));
+    T next_x = next;
+    bool is_back = last_step <= detail::root_step_tolerance(x, options);
+    if (on_grid) {
+      // Where the bracket has no multiple near the next iterate, there is no grid.
+      const T multiple = detail::rounded_to(next, options.grid);
+      if (multiple == x) {
+        is_back = true;
+      } else if (lower < multiple && multiple < upper) {
+        next_x = multiple;
+        is_back = is_back ||
+                  (multiple == before && 1 < result.iterations && last_step <= T(2) * options.grid);
+      }
+    }
+    if (is_back) {
       result.position = next;
       result.status = SolveStatus::converged;
       return result;

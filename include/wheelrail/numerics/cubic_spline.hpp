@@ -24,6 +24,13 @@ struct SplinePoint {
   Value second_derivative;  ///< d2 value / d x2
 };
 
+/// The first columns of a spline's matrix, and their derivatives.
+template <Real T, int rows, int columns>
+struct SplineColumns {
+  Eigen::Matrix<T, rows, columns, Eigen::DontAlign> value;  ///< [unit of the values]
+  Eigen::Matrix<T, rows, columns, Eigen::DontAlign> slope;  ///< d value / d x
+};
+
 /// A C2 spline of scalars, or of fixed-size Eigen matrices component by component. Valid for good
 /// once constructed. @note Queries do not allocate. Differentiable in x and in the values.
 template <Real T, class Value = T>
@@ -77,9 +84,9 @@ class CubicSpline {
     return spline;
   }
 
-  [[nodiscard]] const std::vector<T>& nodes() const { return nodes_; }
-  [[nodiscard]] const T& lower() const { return nodes_.front(); }
-  [[nodiscard]] const T& upper() const { return nodes_.back(); }
+  [[nodiscard]] const std::vector<T>& nodes() const { return nodes_; }  ///< [unit of x]
+  [[nodiscard]] const T& lower() const { return nodes_.front(); }       ///< the first node
+  [[nodiscard]] const T& upper() const { return nodes_.back(); }        ///< the last node
 
   /// At @p x; outside [lower(), upper()] the outermost cubics go on. NaN in, NaN out.
   [[nodiscard]] SplinePoint<Value> evaluate(const T& x) const {
@@ -88,6 +95,19 @@ class CubicSpline {
     const T t = x - nodes_[i];
     return {Value(c.a + t * (c.b + t * (c.c + t * c.d))),
             Value(c.b + t * (T(2) * c.c + (T(3) * t) * c.d)), Value(T(2) * c.c + (T(6) * t) * c.d)};
+  }
+
+  /// The same without second derivatives, of the first @p columns of a matrix alone: in loops that
+  /// need no more, every third instruction is saved.
+  template <int columns>
+  [[nodiscard, gnu::always_inline]] auto evaluate_columns(const T& x) const {
+    const std::size_t i = interval(x);
+    const Cubic& cubic = cubics_[i];
+    const auto a = cubic.a.template leftCols<columns>(), b = cubic.b.template leftCols<columns>();
+    const auto c = cubic.c.template leftCols<columns>(), d = cubic.d.template leftCols<columns>();
+    const T t = x - nodes_[i];
+    return SplineColumns<T, Value::RowsAtCompileTime, columns>{a + t * (b + t * (c + t * d)),
+                                                               b + t * (T(2) * c + (T(3) * t) * d)};
   }
 
  private:
@@ -225,7 +245,7 @@ class CubicSpline {
   std::vector<Value> values_;  // while the spline is solved for
   std::vector<Cubic> cubics_;
   bool is_uniform_ = false;
-  T inverse_spacing_{};
+  T inverse_spacing_ = T(0);
 };
 
 }  // namespace wheelrail

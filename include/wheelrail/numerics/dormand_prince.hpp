@@ -26,7 +26,7 @@ namespace wheelrail {
 template <StateVector State>
 class DormandPrince {
  public:
-  using T = typename State::Scalar;
+  using T = typename State::Scalar;  ///< the scalar of the state
 
   /// @throws std::invalid_argument naming the option that is out of its range.
   explicit DormandPrince(const DormandPrinceOptions<T>& options = {})
@@ -95,15 +95,15 @@ class DormandPrince {
     return dense_[0] + s * (dense_[1] + r * (dense_[2] + s * (dense_[3] + r * dense_[4])));
   }
 
-  [[nodiscard]] T time() const { return time_; }
-  [[nodiscard]] const State& state() const { return state_; }
+  [[nodiscard]] T time() const { return time_; }               ///< that was reached
+  [[nodiscard]] const State& state() const { return state_; }  ///< at time()
   /// Where the last accepted step began, and its length [unit of t]; time() and 0 before the first.
   [[nodiscard]] T previous_time() const { return previous_time_; }
-  [[nodiscard]] T last_step() const { return last_step_; }
+  [[nodiscard]] T last_step() const { return last_step_; }  ///< see previous_time()
   /// Counted since `start`: accepted steps, rejected ones, evaluations of f.
   [[nodiscard]] int steps() const { return steps_; }
-  [[nodiscard]] int rejected_steps() const { return rejected_steps_; }
-  [[nodiscard]] int evaluations() const { return evaluations_; }
+  [[nodiscard]] int rejected_steps() const { return rejected_steps_; }  ///< see steps()
+  [[nodiscard]] int evaluations() const { return evaluations_; }        ///< see steps()
 
  private:
   static bool all_finite(const State& y) {

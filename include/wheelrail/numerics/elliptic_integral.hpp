@@ -12,11 +12,11 @@ namespace wheelrail {
 /// first = b + d and second = b + g^2 d.
 template <Real T>
 struct CompleteElliptic {
-  T first{};   ///< K
-  T second{};  ///< E
-  T b{};       ///< B = (E - g^2 K) / e^2; pi/4 for g = 1
-  T c{};       ///< C = (D - B) / e^2; pi/16 for g = 1
-  T d{};       ///< D = (K - E) / e^2; pi/4 for g = 1
+  T first = T(0);   ///< K
+  T second = T(0);  ///< E
+  T b = T(0);       ///< B = (E - g^2 K) / e^2; pi/4 for g = 1
+  T c = T(0);       ///< C = (D - B) / e^2; pi/16 for g = 1
+  T d = T(0);       ///< D = (K - E) / e^2; pi/4 for g = 1
 };
 
 /// Gauss's iteration a' = (a + g)/2, g' = sqrt(a g) from a = 1 (Abramowitz and Stegun 17.6): with

@@ -40,12 +40,12 @@ enum class IntegrationStatus {
 /// reported when the observer stopped, otherwise the last one that was reached.
 template <StateVector State>
 struct IntegrationResult {
-  IntegrationStatus status = IntegrationStatus::not_finite;
-  typename State::Scalar time{};
-  State state;
-  int steps = 0;           ///< accepted
-  int rejected_steps = 0;  ///< tried in vain
-  int evaluations = 0;     ///< of f
+  IntegrationStatus status = IntegrationStatus::not_finite;  ///< why it ended
+  typename State::Scalar time{};                             ///< that was reached
+  State state;                                               ///< at that time
+  int steps = 0;                                             ///< accepted
+  int rejected_steps = 0;                                    ///< tried in vain
+  int evaluations = 0;                                       ///< of f
 };
 
 /// What looks at the results: (t, y) -> bool, false to stop.

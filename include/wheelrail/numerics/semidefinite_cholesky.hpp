@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <wheelrail/core/assert.hpp>
 #include <wheelrail/core/scalar.hpp>
@@ -20,26 +21,30 @@ namespace wheelrail {
 /// The factorisation stops at the first scaled pivot <= sqrt(epsilon<T>()), halfway in digits between
 /// rounding and one: the rows that are left, within 1.2e-4 rad (double) of the others' span, count
 /// as redundant.
+///
+/// Without pivoting comes first. No scaled pivot exceeds one, so that their product, which is the
+/// determinant of the scaled A, is at most the least of them in any order: where it is above the
+/// bound, all rows are independent by the rule above, and pivoting would only cost.
+/// @tparam Size of all systems, where it is known: MaximumSize.
 /// @note No allocation.
-template <Real T, int MaximumSize>
+template <Real T, int MaximumSize, int Size = Eigen::Dynamic>
 class SemidefiniteCholesky {
  public:
-  using Matrix =
-      Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, MaximumSize, MaximumSize>;
-  using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1, Eigen::ColMajor, MaximumSize, 1>;
+  /// A.
+  using Matrix = Eigen::Matrix<T, Size, Size, Eigen::ColMajor, MaximumSize, MaximumSize>;
+  /// b and x.
+  using Vector = Eigen::Matrix<T, Size, 1, Eigen::ColMajor, MaximumSize, 1>;
 
   /// @param a symmetric, square; of any size up to MaximumSize. Only its lower triangle is read.
   explicit SemidefiniteCholesky(const Matrix& a) : factor_(a), inverses_(a.rows()) {
     using std::sqrt;
     WHEELRAIL_ASSERT(a.rows() == a.cols());
-    for (Eigen::Index i = 0; i < a.rows(); ++i) {
-      const T& diagonal = a(i, i);
-      order_[static_cast<std::size_t>(i)] = i;
-      finite_ = finite_ && wheelrail::is_finite(diagonal);
-      inverses_(i) = T(0) < diagonal ? T(T(1) / diagonal) : T(0);
-    }
+    start(a);
     const T smallest = sqrt(epsilon<T>());
-    while (finite_ && rank_ < a.rows() && take_pivot(smallest)) ++rank_;
+    if (!finite_ || take_all_in_order(smallest)) return;
+    factor_ = a;
+    start(a);
+    while (rank_ < a.rows() && take_pivot(smallest)) ++rank_;
   }
 
   /// How many rows are independent of each other.
@@ -52,25 +57,86 @@ class SemidefiniteCholesky {
     Vector x =
         Vector::Constant(b.size(), finite_ ? T(0) : T(std::numeric_limits<double>::quiet_NaN()));
     if (!finite_) return x;
-    Vector z(rank_);
-    for (Eigen::Index i = 0; i < rank_; ++i) z(i) = b(place(i));
-    for (Eigen::Index j = 0; j < rank_; ++j) {
-      const T z_j = z(j);
-      for (Eigen::Index i = j + 1; i < rank_; ++i) z(i) -= factor_(i, j) * z_j;
-    }
-    for (Eigen::Index j = rank_ - 1; 0 <= j; --j) {
-      T z_j = z(j) * inverses_(j);
-      for (Eigen::Index i = j + 1; i < rank_; ++i) z_j -= factor_(i, j) * z(i);
-      z(j) = z_j;
-      x(place(j)) = z_j;
+    Vector z(b.size());
+    const auto substitute = [&](auto count) {
+      for_each(count, [&](auto at) {
+        const Eigen::Index i = at;
+        z(i) = b(place(i));
+      });
+      for_each(count, [&](auto at) {
+        const Eigen::Index j = at;
+        const T z_j = z(j);
+        for (Eigen::Index i = j + 1; i < count; ++i) z(i) -= factor_(i, j) * z_j;
+      });
+      for_each(count, [&](auto at) {
+        const Eigen::Index j = count - 1 - at;
+        T z_j = z(j) * inverses_(j);
+        for (Eigen::Index i = j + 1; i < count; ++i) z_j -= factor_(i, j) * z(i);
+        z(j) = z_j;
+        x(place(j)) = z_j;
+      });
+    };
+    if (rank_ == b.size()) {
+      substitute(count_of(b));
+    } else {
+      substitute(rank_);
     }
     return x;
   }
 
  private:
+  template <Eigen::Index value>
+  using Constant = std::integral_constant<Eigen::Index, value>;
+
+  /// The number of @p rows, as a type where it is known: loops over it are unrolled.
+  [[nodiscard]] static auto count_of(const Vector& rows) {
+    if constexpr (Size == Eigen::Dynamic) {
+      return rows.size();
+    } else {
+      return Constant<Size>{};
+    }
+  }
+
+  static void for_each(Eigen::Index count, const auto& act) {
+    for (Eigen::Index i = 0; i < count; ++i) act(i);
+  }
+  template <Eigen::Index count>
+  static void for_each(Constant<count>, const auto& act) {
+    [&act]<Eigen::Index... i>(std::integer_sequence<Eigen::Index, i...>) {
+      (act(Constant<i>{}), ...);
+    }
+    (std::make_integer_sequence<Eigen::Index, count>{});
+  }
+
   /// Where the row that is now at @p i stands in A.
   [[nodiscard]] Eigen::Index place(Eigen::Index i) const {
     return order_[static_cast<std::size_t>(i)];
+  }
+
+  /// Nothing is factorised yet.
+  void start(const Matrix& a) {
+    rank_ = 0;
+    for (Eigen::Index i = 0; i < a.rows(); ++i) {
+      const T& diagonal = a(i, i);
+      order_[static_cast<std::size_t>(i)] = i;
+      finite_ = finite_ && wheelrail::is_finite(diagonal);
+      inverses_(i) = T(0) < diagonal ? T(T(1) / diagonal) : T(0);
+    }
+  }
+
+  /// All columns without pivoting. @return false, and all has to be started again, unless the
+  /// product of the scaled pivots stays above @p smallest.
+  bool take_all_in_order(const T& smallest) {
+    T product = T(1);
+    bool regular = true;
+    for_each(count_of(inverses_), [&](auto at) {
+      const Eigen::Index k = at;
+      product *= factor_(k, k) * inverses_(k);
+      regular = regular && smallest < product;
+      if (regular) eliminate(at);
+    });
+    if (regular) rank_ = factor_.rows();
+    return regular;
   }
 
   /// Column rank_ of the factor. @return false, and nothing changes, where all that is left is at
@@ -87,6 +153,14 @@ class SemidefiniteCholesky {
     }
     if (greatest <= smallest) return false;
     if (pivot != k) swap(k, pivot);
+    eliminate(k);
+    return true;
+  }
+
+  /// Divides the @p column by its pivot and takes its part out of the columns behind.
+  void eliminate(auto column) {
+    const Eigen::Index k = column;
+    const Eigen::Index n = factor_.rows();
     const T inverse = T(1) / factor_(k, k);
     inverses_(k) = inverse;
     for (Eigen::Index j = k + 1; j < n; ++j) {
@@ -94,7 +168,6 @@ class SemidefiniteCholesky {
       for (Eigen::Index i = j; i < n; ++i) factor_(i, j) -= factor_(i, k) * l;
       factor_(j, k) = l;
     }
-    return true;
   }
 
   /// Rows and columns @p k < @p other, in the lower triangle alone.

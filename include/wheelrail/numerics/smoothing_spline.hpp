@@ -92,8 +92,9 @@ class SmoothingProblem {
     gram_ = gram();
   }
 
-  [[nodiscard]] const std::vector<T>& nodes() const { return nodes_; }
-  [[nodiscard]] const std::vector<Value>& values() const { return values_; }
+  [[nodiscard]] const std::vector<T>& nodes() const { return nodes_; }        ///< x_i
+  [[nodiscard]] const std::vector<Value>& values() const { return values_; }  ///< y_i
+  /// w_i; 1 where none were given.
   [[nodiscard]] T weight(std::size_t i) const { return weights_.empty() ? T(1) : weights_[i]; }
 
   /// @param smoothing_parameter lambda >= 0; 0 interpolates.
@@ -152,27 +153,30 @@ class SmoothingProblem {
     const T scale = (nodes_.back() - nodes_.front()) / T(2);
     SmoothedValues<T, Value> result{std::vector<Value>(n, zero), values_,
                                     std::vector<Value>(n - order_, zero)};
-    // Polynomials that are orthogonal on the nodes, by their recurrence.
-    std::vector<T> before(n, T(0)), now(n, T(1));
+    // Polynomials that are orthogonal on the nodes, by their recurrence: the one before, and that
+    // of the degree. (Two vectors make g++ 12 warn of their memory where this is inlined.)
+    std::vector<std::array<T, 2>> orthogonal(n, std::array<T, 2>{T(0), T(1)});
     T norm_before = T(1);
     for (std::size_t degree = 0; degree < order_; ++degree) {
       T norm = T(0), moment = T(0);
       Value product = zero;
       for (std::size_t i = 0; i < n; ++i) {
         const T x = (nodes_[i] - middle) / scale;
-        norm += weight(i) * now[i] * now[i];
-        moment += weight(i) * now[i] * now[i] * x;
-        product += (weight(i) * now[i]) * result.residuals[i];
+        const T& now = orthogonal[i][1];
+        norm += weight(i) * now * now;
+        moment += weight(i) * now * now * x;
+        product += (weight(i) * now) * result.residuals[i];
       }
       for (std::size_t i = 0; i < n; ++i) {
-        const Value part = (now[i] / norm) * product;
+        auto& [before, now] = orthogonal[i];
+        const Value part = (now / norm) * product;
         result.fitted[i] += part;
         result.residuals[i] -= part;
         const T x = (nodes_[i] - middle) / scale;
         const T next =
-            (x - moment / norm) * now[i] - (degree == 0 ? T(0) : T(norm / norm_before)) * before[i];
-        before[i] = now[i];
-        now[i] = next;
+            (x - moment / norm) * now - (degree == 0 ? T(0) : T(norm / norm_before)) * before;
+        before = now;
+        now = next;
       }
       norm_before = norm;
     }
@@ -379,7 +383,7 @@ class SmoothingSpline {
     });
   }
 
-  [[nodiscard]] const CubicSpline<T, Value>& spline() const { return spline_; }
+  [[nodiscard]] const CubicSpline<T, Value>& spline() const { return spline_; }  ///< the fit itself
   /// As CubicSpline has it. Outside the nodes the outermost cubics go on.
   [[nodiscard]] SplinePoint<Value> evaluate(const T& x) const { return spline_.evaluate(x); }
   /// y_i - f(x_i) [unit of the values].
@@ -388,7 +392,7 @@ class SmoothingSpline {
   [[nodiscard]] const T& smoothing_parameter() const { return smoothing_parameter_; }
   /// Of the residuals [unit of the values].
   [[nodiscard]] const T& weighted_rms() const { return weighted_rms_; }
-  [[nodiscard]] SmoothingStatus status() const { return status_; }
+  [[nodiscard]] SmoothingStatus status() const { return status_; }  ///< how lambda came about
 
  private:
   SmoothingSpline(const SmoothingProblem<T, Value>& problem, const T& smoothing_parameter,

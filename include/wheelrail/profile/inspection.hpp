@@ -5,6 +5,7 @@
 /// May include: core, numerics, profile.
 
 #include <vector>
+#include <wheelrail/core/scalar_value.hpp>
 #include <wheelrail/numerics/bracketed_root.hpp>
 #include <wheelrail/profile/profile.hpp>
 
@@ -13,10 +14,10 @@ namespace wheelrail {
 /// Jumps at an inner joint: the limit from the flange (lower) side less that from the field side.
 template <Real T>
 struct ProfileJoint {
-  T lateral{};         ///< [m]
-  T value_jump{};      ///< [m]
-  T slope_jump{};      ///< [-]; negative where the corner is concave
-  T curvature_jump{};  ///< [1/m], curvature positive where convex
+  T lateral = T(0);         ///< [m]
+  T value_jump = T(0);      ///< [m]
+  T slope_jump = T(0);      ///< [-]; negative where the corner is concave
+  T curvature_jump = T(0);  ///< [1/m], curvature positive where convex
 };
 
 /// The inner joints of @p profile from the lower end to the upper.
@@ -36,8 +37,8 @@ template <Profile P>
 /// An interval of the lateral coordinate [m].
 template <Real T>
 struct LateralInterval {
-  T lower{};
-  T upper{};
+  T lower = T(0);  ///< [m]
+  T upper = T(0);  ///< [m]
 };
 
 /// Where the body is concave (second derivative > 0), from the lower end to the upper; intervals
@@ -72,8 +73,9 @@ template <Profile P>
       if (concave_left && concave_right) {
         add(left, right);
       } else if (concave_left != concave_right) {
+        // A tangent there does not turn with its point: the root needs no derivatives.
         const T inflection =
-            bracketed_root<T>(second, left, right, second_left, second_right).position;
+            T(value_of(bracketed_root<T>(second, left, right, second_left, second_right).position));
         if (concave_left && left < inflection) add(left, inflection);
         if (concave_right && inflection < right) add(inflection, right);
       }

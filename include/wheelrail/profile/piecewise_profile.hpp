@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 #include <wheelrail/core/require.hpp>
+#include <wheelrail/core/scalar_value.hpp>
 #include <wheelrail/profile/profile.hpp>
 
 namespace wheelrail {
@@ -25,7 +26,7 @@ class PiecewiseProfile;
 template <Real T>
 class ProfilePiece {
  public:
-  static constexpr int maximum_degree = 8;
+  static constexpr int maximum_degree = 8;  ///< of a polynomial
 
   /// value = sum_k coefficients[k] x^k, x = (lateral - origin) / scale.
   /// @param coefficients [m], lowest order first, 1 to 9 of them.
@@ -78,8 +79,23 @@ class ProfilePiece {
     return piece;
   }
 
-  [[nodiscard]] const T& lower() const { return lower_; }
-  [[nodiscard]] const T& upper() const { return upper_; }
+  /// The same piece in another scalar.
+  template <Real U>
+  [[nodiscard]] ProfilePiece<U> cast() const {
+    ProfilePiece<U> piece(scalar_cast<U>(lower_), scalar_cast<U>(upper_));
+    piece.origin_ = scalar_cast<U>(origin_);
+    piece.inverse_scale_ = scalar_cast<U>(inverse_scale_);
+    piece.sign_ = scalar_cast<U>(sign_);
+    for (std::size_t k = 0; k < coefficients_.size(); ++k) {
+      piece.coefficients_[k] = scalar_cast<U>(coefficients_[k]);
+    }
+    piece.degree_ = degree_;
+    piece.is_arc_ = is_arc_;
+    return piece;
+  }
+
+  [[nodiscard]] const T& lower() const { return lower_; }  ///< where it begins [m]
+  [[nodiscard]] const T& upper() const { return upper_; }  ///< where it ends [m]
 
   /// @pre for an arc, @p lateral lies inside its circle.
   [[nodiscard]] ProfilePoint<T> evaluate(const T& lateral) const {
@@ -179,10 +195,12 @@ class ProfilePiece {
   }
 
   friend class detail::ProfileLanes<PiecewiseProfile<T>>;
+  template <Real U>
+  friend class ProfilePiece;
 
   T lower_;
   T upper_;
-  T origin_{};
+  T origin_ = T(0);
   T inverse_scale_ = T(1);
   T sign_ = T(1);
   // A polynomial's coefficients, or an arc's centre value and squared radius.
@@ -196,7 +214,7 @@ class ProfilePiece {
 template <Real T>
 class PiecewiseProfile {
  public:
-  using Scalar = T;
+  using Scalar = T;  ///< the numbers of its coordinates
 
   /// @param pieces from the flange (or gauge) side to the field side.
   /// @throws std::invalid_argument when there are none, or where piece i does not begin where piece
@@ -212,9 +230,20 @@ class PiecewiseProfile {
     }
   }
 
-  [[nodiscard]] T lower() const { return pieces_.front().lower(); }
-  [[nodiscard]] T upper() const { return pieces_.back().upper(); }
+  /// The same profile in another scalar.
+  template <Real U>
+  [[nodiscard]] PiecewiseProfile<U> cast() const {
+    std::vector<ProfilePiece<U>> pieces;
+    pieces.reserve(pieces_.size());
+    for (const auto& piece : pieces_) pieces.push_back(piece.template cast<U>());
+    return PiecewiseProfile<U>(std::move(pieces));
+  }
+
+  [[nodiscard]] T lower() const { return pieces_.front().lower(); }  ///< where it begins [m]
+  [[nodiscard]] T upper() const { return pieces_.back().upper(); }   ///< where it ends [m]
+  /// Number of pieces.
   [[nodiscard]] int piece_count() const { return static_cast<int>(pieces_.size()); }
+  /// Where piece @p i begins, or the last one ends [m]. @pre 0 <= i <= piece_count()
   [[nodiscard]] T joint(int i) const {
     return i < piece_count() ? pieces_[static_cast<std::size_t>(i)].lower() : upper();
   }
@@ -237,6 +266,7 @@ class PiecewiseProfile {
                                                       const T& upper) const {
     return pieces_[static_cast<std::size_t>(piece)].derivative_bounds(lower, upper);
   }
+  /// @pre as for derivative_bounds
   [[nodiscard]] CurvatureBounds<T> curvature_bounds(int piece, const T& lower,
                                                     const T& upper) const {
     return pieces_[static_cast<std::size_t>(piece)].curvature_bounds(lower, upper);

@@ -13,9 +13,9 @@ namespace wheelrail {
 /// A point of a profile, all from one evaluation.
 template <Real T>
 struct ProfilePoint {
-  T value{};              ///< [m], outward: wheel radius above nominal, or rail height
-  T slope{};              ///< d value / d lateral [-]
-  T second_derivative{};  ///< d2 value / d lateral2 [1/m]; negative where the body is convex
+  T value = T(0);              ///< [m], outward: wheel radius above nominal, or rail height
+  T slope = T(0);              ///< d value / d lateral [-]
+  T second_derivative = T(0);  ///< d2 value / d lateral2 [1/m]; negative where the body is convex
 };
 
 /// A profile over [lower(), upper()], lateral coordinate [m] towards the field side. Piece i spans
@@ -36,16 +36,16 @@ concept Profile = Real<typename P::Scalar> &&
 /// What the derivatives of a profile keep within over an interval.
 template <Real T>
 struct DerivativeBounds {
-  T least_second{};     ///< <= d2 value / d lateral2 [1/m]
-  T greatest_second{};  ///< >= d2 value / d lateral2 [1/m]
-  T greatest_third{};   ///< >= |d3 value / d lateral3| [1/m2]
+  T least_second = T(0);     ///< <= d2 value / d lateral2 [1/m]
+  T greatest_second = T(0);  ///< >= d2 value / d lateral2 [1/m]
+  T greatest_third = T(0);   ///< >= |d3 value / d lateral3| [1/m2]
 };
 
 /// What the curvature of a profile keeps within over an interval, positive where convex.
 template <Real T>
 struct CurvatureBounds {
-  T least{};     ///< [1/m]
-  T greatest{};  ///< [1/m]
+  T least = T(0);     ///< [1/m]
+  T greatest = T(0);  ///< [1/m]
 };
 
 /// A profile that bounds its derivatives and its curvature over an interval inside one piece, from
@@ -61,10 +61,10 @@ concept HasDerivativeBounds = Profile<P> &&
 /// The nearest point of a profile to a point of its plane.
 template <Real T>
 struct ClosestPoint {
-  T lateral{};      ///< of the profile's point [m]
-  T penetration{};  ///< depth of the given point under the surface [m], negative above it
+  T lateral = T(0);      ///< of the profile's point [m]
+  T penetration = T(0);  ///< depth of the given point under the surface [m], negative above it
   Vector2<T> normal_rail{T(0), T(1)};  ///< outward unit normal there: (lateral, up)
-  T curvature{};                       ///< of the profile there [1/m], positive where convex
+  T curvature = T(0);                  ///< of the profile there [1/m], positive where convex
 };
 
 /// A profile that knows its nearest point in closed form. Where the foot of the perpendicular would

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,9 +78,9 @@ enum class PointDefect {
 /// One defect of measured points.
 template <Real T>
 struct PointFinding {
-  PointDefect defect{};
-  std::size_t index{};  ///< of the point among those given, from 0
-  T measure{};          ///< as PointDefect says
+  PointDefect defect{};  ///< which one it is
+  std::size_t index{};   ///< of the point among those given, from 0
+  T measure = T(0);      ///< as PointDefect says
 };
 
 /// From where on a point is a defect. Lengths are those of measured profiles of some 0.1 m with a
@@ -347,7 +346,7 @@ class PointExamination {
   const PointLimits<T>& limits_;
   std::vector<PointFinding<T>> findings_;
   std::vector<std::size_t> kept_;
-  T extent_{}, median_distance_{};
+  T extent_ = T(0), median_distance_ = T(0);
 };
 
 template <Real T>
@@ -375,11 +374,10 @@ template <Real T>
     }
   }();
   const std::size_t i = finding.index;
-  throw std::invalid_argument(
-      i < points.size()
-          ? joined({"profile points: point ", std::to_string(i), " at (",
-                    to_text(points.lateral[i]), ", ", to_text(points.value[i]), ") m: ", what})
-          : joined({"profile points: ", what}));
+  throw_or_abort(i < points.size() ? joined({"profile points: point ", std::to_string(i), " at (",
+                                             to_text(points.lateral[i]), ", ",
+                                             to_text(points.value[i]), ") m: ", what})
+                                   : joined({"profile points: ", what}));
 }
 
 }  // namespace detail

@@ -24,13 +24,13 @@ struct ClosestPointLanes {
 /// What a rail head is built from, all [m]; the origin is the top of the head on its axis.
 template <Real T>
 struct RailHeadDimensions {
-  T crown_radius{};     ///< top arc, centred on the axis
-  T shoulder_radius{};  ///< between crown and corner
-  T corner_radius{};    ///< gauge and field corner
-  T width{};            ///< at the points where the corner arcs meet the sides
-  T depth{};            ///< of these points below the top
-  T side_slope{};       ///< widening of each side per depth [-]: 1/20
-  T side_depth{};       ///< depth below the top to which the straight sides are kept
+  T crown_radius = T(0);     ///< top arc, centred on the axis
+  T shoulder_radius = T(0);  ///< between crown and corner
+  T corner_radius = T(0);    ///< gauge and field corner
+  T width = T(0);            ///< at the points where the corner arcs meet the sides
+  T depth = T(0);            ///< of these points below the top
+  T side_slope = T(0);       ///< widening of each side per depth [-]: 1/20
+  T side_depth = T(0);       ///< depth below the top to which the straight sides are kept
 };
 
 /// A symmetric rail head of seven tangent pieces: side, corner, shoulder, crown, shoulder, corner,
@@ -38,14 +38,30 @@ struct RailHeadDimensions {
 template <Real T>
 class RailHead {
  public:
-  using Scalar = T;
+  using Scalar = T;  ///< the numbers of its coordinates
 
   /// @throws std::invalid_argument unless crown > shoulder > corner radius > 0, side_slope > 0,
   ///   side_depth > depth > 0 and tangent arcs of these radii join the top to the given corner.
   explicit RailHead(const RailHeadDimensions<T>& dimensions)
       : RailHead(dimensions, joints_of(dimensions)) {}
 
+  /// The same head in another scalar.
+  template <Real U>
+  [[nodiscard]] RailHead<U> cast() const {
+    const auto& d = dimensions_;
+    return RailHead<U>({scalar_cast<U>(d.crown_radius), scalar_cast<U>(d.shoulder_radius),
+                        scalar_cast<U>(d.corner_radius), scalar_cast<U>(d.width),
+                        scalar_cast<U>(d.depth), scalar_cast<U>(d.side_slope),
+                        scalar_cast<U>(d.side_depth)});
+  }
+
+  /// As they were given.
   [[nodiscard]] const RailHeadDimensions<T>& dimensions() const { return dimensions_; }
+
+  /// @name Of the concept Profile
+  /// @{
+
+  /// As Profile says it: lengths in m, pieces and joints from 0.
   [[nodiscard]] T lower() const { return profile_.lower(); }
   [[nodiscard]] T upper() const { return profile_.upper(); }
   [[nodiscard]] int piece_count() const { return profile_.piece_count(); }
@@ -64,6 +80,7 @@ class RailHead {
                                                     const T& upper) const {
     return profile_.curvature_bounds(piece, lower, upper);
   }
+  /// @}
 
   /// The closed form of (61): the arc whose sector holds the point, and the foot on its radius. The
   /// sectors are cut by the normals at the joints. The sides go on straight below side_depth; the
@@ -137,10 +154,10 @@ class RailHead {
  private:
   // The far end of a piece on the field half: its point and the normal's angle from upright.
   struct Joint {
-    T lateral{}, up{}, sine{}, cosine{};
+    T lateral = T(0), up = T(0), sine = T(0), cosine = T(0);
   };
   struct Circle {
-    T lateral{}, up{}, radius{}, curvature{};
+    T lateral = T(0), up = T(0), radius = T(0), curvature = T(0);
   };
   using Joints = std::array<Joint, 3>;
 

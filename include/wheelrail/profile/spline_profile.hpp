@@ -7,7 +7,7 @@
 /// The smoothing penalises the third derivative (numerics/smoothing_spline.hpp). Profiles are arcs
 /// next to arcs: it leaves an arc as it is, where Reinsch's penalty on the second derivative pulls
 /// the curvature towards 0, at the ends to 0. With 10 um of noise on S1002 that bends the ends by
-/// 30 to 60 um; and it left none of 20 rails with that noise convex, this one 439 of 480.
+/// 30 to 60 um; and it left none of 20 rails with that noise convex, this one all of 480.
 ///
 /// The searches ask for value, slope and second derivative at a lateral coordinate many times. The
 /// curve (u(s), v(s)) would have to be solved for s each time; so it is turned once into
@@ -22,7 +22,9 @@
 #include <type_traits>
 #include <utility>
 #include <vector>
+#include <wheelrail/numerics/lifted_root.hpp>
 #include <wheelrail/numerics/smoothing_spline.hpp>
+#include <wheelrail/profile/noise_estimate.hpp>
 #include <wheelrail/profile/piecewise_profile.hpp>
 
 namespace wheelrail {
@@ -30,69 +32,55 @@ namespace wheelrail {
 /// How a profile is made from points.
 template <Real T>
 struct SplineFitOptions {
-  /// The level of the measurement noise across the profile, one standard deviation [m]: the fit is
-  /// the smoothest curve from which the points deviate by this (root mean square). So a level above
-  /// the true one bends the shape where its curvature changes fast, one below it leaves waves. A
-  /// rail with waves may be concave in places, and then no search on it is proved: a level a tenth
-  /// above the noise keeps 479 of 480 such rails convex. 0 interpolates with a cubic spline,
-  /// not-a-knot.
+  /// The level of the measurement noise across the profile, one standard deviation [m], >= 0. A
+  /// level above the true one bends the shape where its curvature changes fast, one below it leaves
+  /// waves. 0 interpolates with a cubic spline, not-a-knot.
   T noise = constant<T>(1e-5L);
-  /// The profile follows the smoothed curve within curve_tolerance [m]. 0: a thousandth of the
-  /// noise, and not less than rounding, 64 epsilon times the greatest coordinate, nor than 1e-10 m.
+  /// The fit is the smoothest curve from which the n points deviate (root mean square) by noise (1
+  /// + margin / sqrt(2 n)) [-], >= 0. The noise of n points has a root mean square with the
+  /// standard deviation noise / sqrt(2 n): where it is above what the curve may deviate by, the
+  /// difference is made up by waves. Then a rail may be concave in places, and no search on it is
+  /// proved: with 0 one of twelve such rails is, with 2 none of 480 was.
+  T margin = T(2);
+  /// The profile follows the smoothed curve within curve_tolerance [m], >= 0. 0: a thousandth of
+  /// the noise, and not less than rounding, 64 epsilon times the greatest coordinate, nor than
+  /// 1e-10 m.
   T curve_tolerance = T(0);
 };
-
-/// The level of the noise across a measured profile [m], one standard deviation: from what four
-/// neighbouring points are off a parabola over the chordal arc length, in the median, so that corners
-/// count little. For normally distributed noise; 0 for fewer than eight points.
-/// @param laterals, values of the points [m]. @pre as many of both, neighbours apart from each other
-template <Real T>
-[[nodiscard]] T estimated_noise(const std::vector<T>& laterals, const std::vector<T>& values) {
-  using std::sqrt;
-  if (laterals.size() < 8 || values.size() != laterals.size()) return T(0);
-  std::vector<T> residuals;
-  for (std::size_t first = 0; first + 3 < laterals.size(); ++first) {
-    std::array<T, 4> arc{T(0)};
-    for (std::size_t i = 1; i < 4; ++i) {
-      const T across = laterals[first + i] - laterals[first + i - 1];
-      const T up = values[first + i] - values[first + i - 1];
-      arc[i] = arc[i - 1] + sqrt(T(across * across + up * up));
-    }
-    // The third divided difference, of which a parabola has none.
-    T difference = T(0), squares = T(0);
-    for (std::size_t i = 0; i < 4; ++i) {
-      T weight = T(1);
-      for (std::size_t j = 0; j < 4; ++j) {
-        if (j != i) weight *= arc[3] / (arc[i] - arc[j]);
-      }
-      difference += weight * values[first + i];
-      squares += weight * weight;
-    }
-    const T residual = detail::magnitude(T(difference / sqrt(squares)));
-    if (is_finite(residual)) residuals.push_back(residual);
-  }
-  if (residuals.empty()) return T(0);
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  return *middle / constant<T>(0.6744897501960817L);  // the normal distribution's median deviation
-}
 
 /// What came of the points.
 template <Real T>
 struct SplineFitReport {
-  T noise{};                ///< the level that was asked for [m]
-  T smoothing_parameter{};  ///< lambda of the smoothing spline [m^5]; 0: interpolated
+  T noise = T(0);                ///< the level that was asked for, without its margin [m]
+  T smoothing_parameter = T(0);  ///< lambda of the smoothing spline [m^5]; 0: interpolated
   /// How far the points lie from the curve, across it [m].
-  T rms_deviation{};
-  T greatest_deviation{};
+  T rms_deviation = T(0);
+  T greatest_deviation = T(0);       ///< the greatest of them [m]
   int greatest_deviation_index = 0;  ///< of that point, from 0
-  T curve_deviation{};               ///< of the profile from the smoothed curve, as sampled [m]
-  T greatest_curvature{};  ///< of the greatest size [1/m], positive where the body is convex
-  T greatest_curvature_lateral{};  ///< where that is [m]
-  T least_radius{};                ///< 1 / |greatest_curvature| [m]
-  T steepest_slope{};              ///< the greatest |d value / d lateral| [-]
-  int polynomial_count = 0;        ///< that the profile is made of
-  SmoothingStatus status = SmoothingStatus::interpolating;
+  T curve_deviation = T(0);          ///< of the profile from the smoothed curve, as sampled [m]
+  T greatest_curvature = T(0);  ///< of the greatest size [1/m], positive where the body is convex
+  T greatest_curvature_lateral = T(0);  ///< where that is [m]
+  T least_radius = T(0);                ///< 1 / |greatest_curvature| [m]
+  T steepest_slope = T(0);              ///< the greatest |d value / d lateral| [-]
+  int polynomial_count = 0;             ///< that the profile is made of
+  SmoothingStatus status = SmoothingStatus::interpolating;  ///< how lambda came about
+
+  /// The same in another scalar.
+  template <Real U>
+  [[nodiscard]] SplineFitReport<U> cast() const {
+    return {scalar_cast<U>(noise),
+            scalar_cast<U>(smoothing_parameter),
+            scalar_cast<U>(rms_deviation),
+            scalar_cast<U>(greatest_deviation),
+            greatest_deviation_index,
+            scalar_cast<U>(curve_deviation),
+            scalar_cast<U>(greatest_curvature),
+            scalar_cast<U>(greatest_curvature_lateral),
+            scalar_cast<U>(least_radius),
+            scalar_cast<U>(steepest_slope),
+            polynomial_count,
+            status};
+  }
 };
 
 /// A C2 profile through or near points. Valid for good once constructed. Its ends are those of the
@@ -100,15 +88,16 @@ struct SplineFitReport {
 template <Real T>
 class SplineProfile {
  public:
-  using Scalar = T;
+  using Scalar = T;  ///< the numbers of its coordinates
   /// Steeper than this, a profile is no function of the lateral coordinate any more [-].
   static constexpr int slope_limit = 100;
 
   /// @param laterals [m], values [m]: the points in the profile's own coordinates, from the flange
   ///   (or gauge) side to the field side. At least 4. The laterals grow; they may step back by what
   ///   the noise explains, 6 times its level.
-  /// @throws std::invalid_argument naming the first point that breaks this, or where the smoothed
-  ///   curve turns back or is steeper than slope_limit.
+  /// @throws std::invalid_argument naming the first point or option that breaks its rule, or where
+  ///   the smoothed curve turns back, is steeper than slope_limit or cannot be followed within the
+  ///   curve tolerance.
   SplineProfile(const std::vector<T>& laterals, const std::vector<T>& values,
                 const SplineFitOptions<T>& options = {}) {
     check(laterals, values, options);
@@ -117,7 +106,7 @@ class SplineProfile {
     points.reserve(arc.size());
     for (std::size_t i = 0; i < arc.size(); ++i) points.emplace_back(laterals[i], values[i]);
     report_.noise = options.noise;
-    const Curve curve = fitted(arc, points);
+    const Curve curve = fitted(arc, points, options.margin);
     check_slopes(curve);
     report_deviations(curve, points);
     T tolerance = options.curve_tolerance;
@@ -136,14 +125,32 @@ class SplineProfile {
     report_curvature();
   }
 
-  [[nodiscard]] const SplineFitReport<T>& report() const { return report_; }
+  /// The same profile in another scalar, not fitted again.
+  template <Real U>
+  [[nodiscard]] SplineProfile<U> cast() const {
+    SplineProfile<U> profile;
+    for (const Element& element : elements_) {
+      profile.elements_.push_back(element.template cast<U>());
+    }
+    for (const End& end : ends_) {
+      profile.ends_.push_back(
+          {scalar_cast<U>(end.lateral), scalar_cast<U>(end.value), scalar_cast<U>(end.slope)});
+    }
+    profile.table_ = table_;
+    profile.inverse_cell_ = scalar_cast<U>(inverse_cell_);
+    profile.report_ = report_.template cast<U>();
+    return profile;
+  }
 
-  [[nodiscard]] T lower() const { return ends_.front().lateral; }
-  [[nodiscard]] T upper() const { return ends_.back().lateral; }
+  [[nodiscard]] const SplineFitReport<T>& report() const { return report_; }  ///< of the fit
+
+  [[nodiscard]] T lower() const { return ends_.front().lateral; }  ///< where it begins [m]
+  [[nodiscard]] T upper() const { return ends_.back().lateral; }   ///< where it ends [m]
+  /// Pieces, as the concept Profile has them.
   [[nodiscard]] int piece_count() const {
     return static_cast<int>((elements_.size() + per_piece - 1) / per_piece);
   }
-  [[nodiscard]] T joint(int i) const { return ends_[first_of(i)].lateral; }
+  [[nodiscard]] T joint(int i) const { return ends_[first_of(i)].lateral; }  ///< [m]
 
   /// @pre lower() <= lateral <= upper()
   [[nodiscard]] ProfilePoint<T> evaluate(const T& lateral) const {
@@ -207,31 +214,36 @@ class SplineProfile {
     const Element& element = elements_[first];
     const T width = element.upper() - element.lower();
     const T tolerance = T(8) * epsilon<T>() * (upper() - lower());
+    const auto equation = [&](const T& u) {
+      const ProfilePoint<T> point = element.evaluate(u);
+      return ValueAndSlope<T>{
+          ahead(u, point.value, point.slope),
+          T(1) + point.slope * point.slope + (point.value - up) * point.second_derivative};
+    };
     const auto root = bracketed_newton<T>(
-        [&](const T& u) {
-          const ProfilePoint<T> point = element.evaluate(u);
-          return ValueAndSlope<T>{
-              ahead(u, point.value, point.slope),
-              T(1) + point.slope * point.slope + (point.value - up) * point.second_derivative};
-        },
-        element.lower(), element.upper(), at_first, at_last,
+        equation, element.lower(), element.upper(), at_first, at_last,
         T(element.lower() + width * (at_first / (at_first - at_last))),
         {.step_tolerance = tolerance, .residual_tolerance = tolerance, .maximum_iterations = 60});
-    const ProfilePoint<T> point = element.evaluate(root.position);
+    const T foot_lateral = lifted_root<T>(value_of(root.position), equation);
+    const ProfilePoint<T> point = element.evaluate(foot_lateral);
     const T cosine = T(1) / T(sqrt(T(T(1) + point.slope * point.slope)));
     const Vector2<T> normal_rail(T(-point.slope * cosine), cosine);
     ClosestPoint<T> foot{
-        root.position,
-        (root.position - lateral) * normal_rail.x() + (point.value - up) * normal_rail.y(),
+        foot_lateral,
+        (foot_lateral - lateral) * normal_rail.x() + (point.value - up) * normal_rail.y(),
         normal_rail, curvature(point)};
     if (root.status != SolveStatus::converged) foot.penetration = T(0) / T(0);
     return foot;
   }
 
  private:
+  template <Real U>
+  friend class SplineProfile;
+  SplineProfile() = default;  // of cast
+
   // Where one polynomial ends and the next begins.
   struct End {
-    T lateral{}, value{}, slope{};
+    T lateral = T(0), value = T(0), slope = T(0);
   };
 
   // The foot on the straight line that goes on beyond an end of the profile.
@@ -257,8 +269,8 @@ class SplineProfile {
 
   // A point of the curve as a function of the lateral coordinate.
   struct Node {
-    T arc_length{};
-    T lateral{};
+    T arc_length = T(0);
+    T lateral = T(0);
     ProfilePoint<T> point;
   };
 
@@ -270,6 +282,7 @@ class SplineProfile {
                                     " lateral coordinates and ", std::to_string(values.size()),
                                     " values, but must be as many, at least 4"}));
     detail::require_not_negative("spline profile: noise", options.noise, "[m]");
+    detail::require_not_negative("spline profile: margin", options.margin, "[-]");
     detail::require_not_negative("spline profile: curve tolerance", options.curve_tolerance, "[m]");
     const T play = T(6) * options.noise;
     T farthest = laterals.front();
@@ -304,14 +317,18 @@ class SplineProfile {
   }
 
   // The curve through or near the points.
-  [[nodiscard]] Curve fitted(const std::vector<T>& arc, const std::vector<Point>& points) {
+  [[nodiscard]] Curve fitted(const std::vector<T>& arc, const std::vector<Point>& points,
+                             const T& margin) {
+    using std::sqrt;
     if (report_.noise == T(0)) {
       report_.status = SmoothingStatus::interpolating;
       return Curve(arc, points);
     }
     const SmoothingProblem<T, Point> problem(arc, points, SmoothingPenalty::third_derivative);
+    T doubled = T(0);
+    for (std::size_t i = 0; i < points.size(); ++i) doubled += T(2);
     const auto spline = SmoothingSpline<T, Point>::with_noise(
-        problem, report_.noise,
+        problem, T(report_.noise * (T(1) + margin / T(sqrt(doubled)))),
         [](const SmoothedValues<T, Point>& values) { return rms_across(values); });
     report_.smoothing_parameter = spline.smoothing_parameter();
     report_.status = spline.status();
@@ -335,19 +352,24 @@ class SplineProfile {
     return sqrt(T(sum / count));
   }
 
-  // u'(s) is a parabola between two nodes: it must stay positive, and |v'| below the slope limit.
+  // u'(s) and v'(s) are parabolas between two nodes. Where slope_limit u' + v' and slope_limit u' -
+  // v' stay positive, u' does too, and |v'| is below the limit: each is least at an end or its
+  // vertex.
   static void check_slopes(const Curve& curve) {
     const auto& nodes = curve.nodes();
     for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
       const auto left = curve.evaluate(nodes[i]), right = curve.evaluate(nodes[i + 1]);
-      const T from = left.second_derivative.x(), to = right.second_derivative.x();
-      T s = left.slope.x() < right.slope.x() ? nodes[i] : nodes[i + 1];
-      if (from < T(0) && T(0) < to) {
-        s = nodes[i] + (nodes[i + 1] - nodes[i]) * (from / (from - to));
-      }
-      const auto at = curve.evaluate(s);
-      const bool is_steep = !(detail::magnitude(T(at.slope.y())) < T(slope_limit) * at.slope.x());
-      if (is_steep) {
+      for (const T& sign : {T(1), T(-1)}) {
+        const auto room = [&sign](const Point& rate) {
+          return T(T(slope_limit) * rate.x() - sign * rate.y());
+        };
+        const T from = room(left.second_derivative), to = room(right.second_derivative);
+        T s = room(left.slope) < room(right.slope) ? nodes[i] : nodes[i + 1];
+        if (from < T(0) && T(0) < to) {
+          s = nodes[i] + (nodes[i + 1] - nodes[i]) * (from / (from - to));
+        }
+        const auto at = curve.evaluate(s);
+        if (T(0) < room(at.slope)) continue;
         const T slope = at.slope.y() / at.slope.x();
         detail::require(
             false,
@@ -474,6 +496,12 @@ class SplineProfile {
       convert_one(curve, middle, right, tolerance, depth + 1);
       return;
     }
+    if (tolerance < worst) {
+      detail::require(false,
+                      detail::joined({"spline profile: at lateral ", detail::to_text(left.lateral),
+                                      " m the distance of the profile from the smoothed curve"}),
+                      worst, "at most the curve tolerance, " + detail::to_text(tolerance) + " m");
+    }
     elements_.push_back(element);
     report_.curve_deviation = detail::max(report_.curve_deviation, worst);
   }
@@ -564,7 +592,7 @@ class SplineProfile {
   std::vector<Element> elements_;
   std::vector<End> ends_;  // of the polynomials, one more than these
   std::vector<std::size_t> table_;
-  T inverse_cell_{};
+  T inverse_cell_ = T(0);
   SplineFitReport<T> report_;
 };
 

@@ -4,6 +4,7 @@
 /// tree over the intervals between them that bounds the profile's shape: how far it rises above its
 /// tangents, and how its derivatives vary. May include: core, numerics, profile.
 
+#include <bit>
 #include <vector>
 #include <wheelrail/core/require.hpp>
 #include <wheelrail/profile/profile.hpp>
@@ -13,20 +14,20 @@ namespace wheelrail {
 /// One strip: a profile point as its piece has it.
 template <Real T>
 struct Strip {
-  T lateral{};  ///< [m]
-  ProfilePoint<T> point;
-  int piece = 0;
+  T lateral = T(0);       ///< [m]
+  ProfilePoint<T> point;  ///< the profile there
+  int piece = 0;          ///< of the profile
 };
 
 /// What a profile F keeps within over an interval.
 template <Real T>
 struct ShapeBounds {
-  T least_second{};     ///< <= F'' [1/m]
-  T greatest_second{};  ///< >= F'' [1/m]
-  T steepest{};         ///< >= |F'| [-]
-  T flattest{};         ///< <= |F'|, not less than 0 [-]
-  T second{};           ///< >= |F''| [1/m]
-  T third{};            ///< >= |F'''| [1/m2]
+  T least_second = T(0);     ///< <= F'' [1/m]
+  T greatest_second = T(0);  ///< >= F'' [1/m]
+  T steepest = T(0);         ///< >= |F'| [-]
+  T flattest = T(0);         ///< <= |F'|, not less than 0 [-]
+  T second = T(0);           ///< >= |F''| [1/m]
+  T third = T(0);            ///< >= |F'''| [1/m2]
 
   /// Also holds where `other` does then.
   void widen(const ShapeBounds& other) {
@@ -73,14 +74,14 @@ template <Profile P>
 /// |u - centre| <= half_width and R(u) <= greatest_radius + slope (u - centre).
 template <Real T>
 struct StripNode {
-  T centre{};           ///< lateral coordinate of the strip in its middle [m]
-  T half_width{};       ///< [m]
-  T slope{};            ///< of the profile at the centre [-]
-  T greatest_radius{};  ///< the radius there, and what the profile rises above its tangent [m]
-  int first = 0;
-  int last = 0;          ///< first + 1: a leaf, the interval between two strips
-  std::size_t skip = 0;  ///< the node after this one's subtree; the first child is the next
-  bool is_in_one_piece = false;
+  T centre = T(0);           ///< lateral coordinate of the strip in its middle [m]
+  T half_width = T(0);       ///< [m]
+  T slope = T(0);            ///< of the profile at the centre [-]
+  T greatest_radius = T(0);  ///< the radius there, and what the profile rises above its tangent [m]
+  int first = 0;             ///< index of a strip
+  int last = 0;              ///< first + 1: a leaf, the interval between two strips
+  std::size_t skip = 0;      ///< the node after this one's subtree; the first child is the next
+  bool is_in_one_piece = false;  ///< all its strips are of one piece
 };
 
 /// The strips of a profile in order, and its nodes in preorder. Nodes over several pieces are split
@@ -109,6 +110,14 @@ class StripTree {
         shapes_.push_back(i > 0 ? intervals.back().shape : ShapeBounds<T>());
       }
     }
+    // The bounds over 2 intervals from those over 1 each, over 4 from those over 2, and so on.
+    for (std::size_t span = 1, begin = 0; span < strips_.size(); span *= 2) {
+      for (std::size_t i = 0; i < strips_.size(); ++i, ++begin) {
+        ShapeBounds<T> shape = shapes_[begin];
+        if (i + span < strips_.size()) shape.widen(shapes_[begin + span]);
+        shapes_.push_back(shape);
+      }
+    }
     for (const Interval& interval : intervals) {
       for (const Strip<T>& strip : {at(interval.first), interval.middle, at(interval.first + 1)}) {
         greatest_radius_ =
@@ -121,16 +130,21 @@ class StripTree {
 
   /// Not less than the radius of any strip [m].
   [[nodiscard]] const T& greatest_radius() const { return greatest_radius_; }
+  /// By lateral coordinate.
   [[nodiscard]] const std::vector<Strip<T>>& strips() const { return strips_; }
-  [[nodiscard]] const std::vector<StripNode<T>>& nodes() const { return nodes_; }
+  [[nodiscard]] const std::vector<StripNode<T>>& nodes() const { return nodes_; }  ///< in preorder
   /// The interval between a strip and the next one of its piece.
   [[nodiscard]] const StripNode<T>& leaf(int first) const {
     return nodes_[leaves_[static_cast<std::size_t>(first)]];
   }
   /// What the profile keeps within between two strips of one piece. @pre first < last
   [[nodiscard]] ShapeBounds<T> shape_between(int first, int last) const {
-    ShapeBounds<T> shape = shapes_[static_cast<std::size_t>(first + 1)];
-    for (int i = first + 2; i <= last; ++i) shape.widen(shapes_[static_cast<std::size_t>(i)]);
+    const auto count = static_cast<std::size_t>(last - first);
+    const int level = static_cast<int>(std::bit_width(count)) - 1;
+    const ShapeBounds<T>* shapes =
+        shapes_.data() + strips_.size() * static_cast<std::size_t>(level) + 1;
+    ShapeBounds<T> shape = shapes[first];
+    shape.widen(shapes[last - (1 << level)]);
     return shape;
   }
   /// Whether all bounds are proved: the profile has derivative bounds.
@@ -142,7 +156,7 @@ class StripTree {
     int first = 0;
     Strip<T> middle;
     ShapeBounds<T> shape;
-    T bulge{};  // F is at most this far above its chords to the middle [m]
+    T bulge = T(0);  // F is at most this far above its chords to the middle [m]
   };
 
   // The interval between the last two strips.
@@ -224,7 +238,9 @@ class StripTree {
 
   T greatest_radius_;
   std::vector<Strip<T>> strips_;
-  std::vector<ShapeBounds<T>> shapes_;  // of the interval before each strip
+  // Of the interval before each strip; then of the two from there on, of the four, and so on, as long
+  // as there are so many; those over several pieces mean nothing.
+  std::vector<ShapeBounds<T>> shapes_;
   std::vector<StripNode<T>> nodes_;
   std::vector<std::size_t> leaves_;  // the node of the interval after each strip
   bool is_proved_;

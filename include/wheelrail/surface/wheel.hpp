@@ -8,10 +8,11 @@
 /// Rz(pi)). It does not spin with the wheel. The wheel angle turns right-handed about y, from
 /// straight below.
 
+#include <type_traits>
 #include <utility>
 #include <wheelrail/core/require.hpp>
 #include <wheelrail/core/vector.hpp>
-#include <wheelrail/profile/profile.hpp>
+#include <wheelrail/profile/value_profile.hpp>
 #include <wheelrail/surface/strip_tree.hpp>
 
 namespace wheelrail {
@@ -19,9 +20,10 @@ namespace wheelrail {
 /// A wheel angle [rad] by its sine and cosine.
 template <Real T>
 struct WheelAngle {
-  T sine = T(0);
-  T cosine = T(1);
+  T sine = T(0);    ///< [-]
+  T cosine = T(1);  ///< [-]
 
+  /// That of @p angle [rad].
   [[nodiscard]] static WheelAngle of(const T& angle) {
     using std::cos;
     using std::sin;
@@ -34,9 +36,11 @@ struct WheelAngle {
 template <Profile P>
 class Wheel {
  public:
-  using Scalar = typename P::Scalar;
-  using T = Scalar;
-  using ProfileType = P;
+  using Scalar = typename P::Scalar;  ///< the numbers of its coordinates
+  using T = Scalar;                   ///< the same, short
+  using ProfileType = P;              ///< of its profile
+  /// The wheel without the derivatives of its scalar.
+  using Values = Wheel<ValueProfile<P>>;
 
   /// @param nominal_radius [m], the radius at the tread circle (lateral = 0, F = 0).
   /// @param strip_spacing neighbouring strips of a contact search are at most this far apart [m].
@@ -45,7 +49,7 @@ class Wheel {
   Wheel(P profile, const T& nominal_radius, const T& strip_spacing = constant<T>(0.5e-3L))
       : profile_(std::move(profile)),
         nominal_radius_(nominal_radius),
-        strips_(profile_, nominal_radius, strip_spacing) {
+        search_(search_of(profile_, nominal_radius, strip_spacing)) {
     detail::require_positive("wheel: nominal radius", nominal_radius_, "[m]");
     for (int i = 0; i <= profile_.piece_count(); ++i) {
       const T lateral = profile_.joint(i);
@@ -57,9 +61,24 @@ class Wheel {
     }
   }
 
-  [[nodiscard]] const P& profile() const { return profile_; }
-  [[nodiscard]] const T& nominal_radius() const { return nominal_radius_; }
-  [[nodiscard]] const StripTree<T>& strips() const { return strips_; }
+  [[nodiscard]] const P& profile() const { return profile_; }  ///< turned about the axle
+  [[nodiscard]] const T& nominal_radius() const { return nominal_radius_; }  ///< R0 [m]
+  /// The wheel that a search in T searches with: of the values, or this one where T has no others.
+  [[nodiscard]] const Values& values() const {
+    if constexpr (has_derivatives<T>) {
+      return search_;
+    } else {
+      return *this;
+    }
+  }
+  /// Of the values of its profile, for the contact search.
+  [[nodiscard]] const StripTree<ValueOf<T>>& strips() const {
+    if constexpr (has_derivatives<T>) {
+      return search_.strips();
+    } else {
+      return search_;
+    }
+  }
 
   /// The rolling radius [m] at @p point of the profile.
   [[nodiscard]] T radius(const ProfilePoint<T>& point) const {
@@ -108,9 +127,16 @@ class Wheel {
   }
 
  private:
+  using Search = std::conditional_t<has_derivatives<T>, Values, StripTree<ValueOf<T>>>;
+
+  [[nodiscard]] static Search search_of(const P& profile, const T& nominal_radius,
+                                        const T& strip_spacing) {
+    return Search(value_profile(profile), value_of(nominal_radius), value_of(strip_spacing));
+  }
+
   P profile_;
   T nominal_radius_;
-  StripTree<T> strips_;
+  Search search_;
 };
 
 }  // namespace wheelrail

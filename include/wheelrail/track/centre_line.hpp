@@ -16,18 +16,20 @@
 
 namespace wheelrail {
 
+/// Of constant curvature 0, of one that goes linearly from one to another, of a constant one.
 enum class SegmentKind { tangent, clothoid, arc };
 
 /// A piece of the centre line; `tangent`, `clothoid` and `arc` make one.
 template <Real T>
 struct TrackSegment {
-  SegmentKind kind = SegmentKind::tangent;
-  T length{};              ///< [m]
-  T radius = T(0);         ///< of an arc [m], > 0
-  Side turn = Side::left;  ///< of an arc
-  T cant_start = T(0);     ///< [m], linear to cant_end; a clothoid takes its neighbours'
-  T cant_end = T(0);       ///< [m]
+  SegmentKind kind = SegmentKind::tangent;  ///< which of the three
+  T length = T(0);                          ///< [m]
+  T radius = T(0);                          ///< of an arc [m], > 0
+  Side turn = Side::left;                   ///< of an arc
+  T cant_start = T(0);  ///< [m], linear to cant_end; a clothoid takes its neighbours'
+  T cant_end = T(0);    ///< [m]
 
+  /// Straight. @param length [m], > 0. @param cant [m], constant.
   [[nodiscard]] static TrackSegment tangent(const T& length, const T& cant = T(0)) {
     return {SegmentKind::tangent, length, T(0), Side::left, cant, cant};
   }
@@ -35,12 +37,14 @@ struct TrackSegment {
   [[nodiscard]] static TrackSegment clothoid(const T& length) {
     return {SegmentKind::clothoid, length, T(0), Side::left, T(0), T(0)};
   }
+  /// A circle's. @param length [m], > 0. @param radius [m], > 0. @param cant [m], constant.
   [[nodiscard]] static TrackSegment arc(const T& length, const T& radius, Side turn,
                                         const T& cant = T(0)) {
     return {SegmentKind::arc, length, radius, turn, cant, cant};
   }
 };
 
+/// How cant is measured and rounded off, and what counts as a jump.
 template <Real T>
 struct CentreLineOptions {
   /// Distance over which cant is measured [m]: sin(cant angle) = cant / cant_base. EN 13803 takes
@@ -59,10 +63,10 @@ struct CentreLineOptions {
 template <Real T>
 struct CentreLinePoint {
   Vector3<T> position_track = Vector3<T>::Zero();  ///< [m]
-  T heading{};                                     ///< from x to the left [rad]
-  T curvature{};                                   ///< positive to the left [1/m]
-  T cant{};                                        ///< right rail over left [m]
-  T sin_cant{};                                    ///< of the angle by which the track plane leans
+  T heading = T(0);                                ///< from x to the left [rad]
+  T curvature = T(0);                              ///< positive to the left [1/m]
+  T cant = T(0);                                   ///< right rail over left [m]
+  T sin_cant = T(0);                               ///< of the angle by which the track plane leans
 };
 
 /// A track plane's axes (columns): forward, left and up, for a heading and the sine of the cant
@@ -104,11 +108,12 @@ class CentreLine {
   }
 
   [[nodiscard]] T length() const { return pieces_.back().start + pieces_.back().length; }  ///< [m]
+  /// As they were given.
   [[nodiscard]] const CentreLineOptions<T>& options() const { return options_; }
 
   /// The number of segments, and the arc length at which segment @p i starts [m].
   [[nodiscard]] std::size_t segment_count() const { return pieces_.size(); }
-  [[nodiscard]] const T& segment_start(std::size_t i) const { return pieces_[i].start; }
+  [[nodiscard]] const T& segment_start(std::size_t i) const { return pieces_[i].start; }  ///< [m]
 
   /// At @p arc_length [m]; beyond the ends the end segments go on. The position is integrated by
   /// Gauss-Legendre quadrature in steps that turn by at most 0.5 rad: exact to rounding.
@@ -123,11 +128,11 @@ class CentreLine {
 
  private:
   struct Piece {
-    T start{}, length{};
+    T start = T(0), length = T(0);
     Vector3<T> origin_track = Vector3<T>::Zero();
-    T heading{};  // at the start
-    T curvature_start{}, curvature_rate{};
-    T cant_start{}, cant_rate{};
+    T heading = T(0);  // at the start
+    T curvature_start = T(0), curvature_rate = T(0);
+    T cant_start = T(0), cant_rate = T(0);
     int steps = 1;  // of the quadrature
   };
 

@@ -39,6 +39,7 @@ class TrackIrregularities {
       : spline_(std::move(arc_lengths), columns(table), Vector4<T>(Vector4<T>::Zero()),
                 Vector4<T>(Vector4<T>::Zero())) {}
 
+  /// At @p arc_length [m].
   [[nodiscard]] Irregularity<T> evaluate(const T& arc_length) const {
     const T within = detail::clamp(arc_length, spline_.lower(), spline_.upper());
     const Vector4<T> value = spline_.evaluate(within).value;
@@ -71,10 +72,10 @@ class TrackIrregularities {
 /// Springer 2020.
 template <Real T>
 struct IrregularitySpectrum {
-  T lateral{};      ///< A of the alignment [m rad]
-  T vertical{};     ///< A of the longitudinal level [m rad]
-  T gauge{};        ///< A of the gauge [m rad]
-  T cross_level{};  ///< A of the cross-level, four times that of the level [m rad]
+  T lateral = T(0);      ///< A of the alignment [m rad]
+  T vertical = T(0);     ///< A of the longitudinal level [m rad]
+  T gauge = T(0);        ///< A of the gauge [m rad]
+  T cross_level = T(0);  ///< A of the cross-level, four times that of the level [m rad]
   T cutoff_c = constant<T>(0.8246L);  ///< Wc [rad/m]
   T cutoff_r = constant<T>(0.0206L);  ///< Wr [rad/m]
   T cutoff_s = constant<T>(0.4380L);  ///< Ws [rad/m]
@@ -100,9 +101,10 @@ struct IrregularitySpectrum {
   }
 };
 
+/// Of random irregularities: their phases, wavelengths and ramp.
 template <Real T>
 struct IrregularityOptions {
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;         ///< of the random phases
   T shortest_wavelength = T(3);   ///< [m], > 0
   T longest_wavelength = T(100);  ///< [m], > shortest
   T start = T(0);                 ///< no irregularities before this arc length [m]

@@ -9,14 +9,16 @@
 /// the cross product of the other two, and the axes are made orthonormal again after interpolation.
 
 #include <array>
-#include <wheelrail/numerics/bracketed_root.hpp>
 #include <wheelrail/numerics/cubic_spline.hpp>
+#include <wheelrail/numerics/detail/arc_tangent.hpp>
+#include <wheelrail/numerics/lifted_root.hpp>
 #include <wheelrail/track/centre_line.hpp>
 #include <wheelrail/track/irregularities.hpp>
 #include <wheelrail/track/tangent_track.hpp>
 
 namespace wheelrail {
 
+/// How fine the table of nodes is.
 template <Real T>
 struct NodalTrackOptions {
   /// Nodes lie at most this far apart [m]. A jump J of a curvature's slope [1/m2], as where a
@@ -30,9 +32,9 @@ struct NodalTrackOptions {
 template <Profile R>
 class NodalTrack {
  public:
-  using Scalar = typename R::Scalar;
-  using T = Scalar;
-  using RailProfile = R;
+  using Scalar = typename R::Scalar;  ///< the numbers of its coordinates
+  using T = Scalar;                   ///< the same, short
+  using RailProfile = R;              ///< of the rails
 
   /// The pre-processor. @param profile as for TangentTrack.
   /// @throws std::invalid_argument as TangentTrack does; unless the spacing is > 0 and at least a
@@ -47,12 +49,13 @@ class NodalTrack {
         seat_(detail::RailSeat<T>::of(rail_.profile(), dimensions.gauge, dimensions.inclination)),
         paths_{path(Side::left, irregularities, options),
                path(Side::right, irregularities, options)} {
-    using std::atan;
-    inclination_ = atan(dimensions_.inclination);
+    inclination_ = detail::arc_tangent(dimensions_.inclination);
   }
 
-  [[nodiscard]] const Rail<R>& rail(Side) const { return rail_; }
+  [[nodiscard]] const Rail<R>& rail(Side) const { return rail_; }  ///< the same on both sides
+  /// Gauge and inclination.
   [[nodiscard]] const TrackDimensions<T>& dimensions() const { return dimensions_; }
+  /// As it was given.
   [[nodiscard]] const CentreLine<T>& centre_line() const { return centre_line_; }
   [[nodiscard]] T length() const { return paths_[0].upper(); }  ///< of the centre line [m]
 
@@ -84,13 +87,21 @@ class NodalTrack {
     // the table goes straight along it to rounding.
     const T small_step = sqrt(epsilon<T>());
     T s = detail::clamp(guess, T(0), length());
+    int lifting_steps = ScalarTraits<T>::lifting_steps;
+    // A guess from the time before is not the foot yet: its step needs no normal.
+    const ValueAndSlope<T> first = along(path.template evaluate_columns<2>(s));
+    if (T(0) < first.slope) s = detail::clamp(T(s - first.value / first.slope), T(0), length());
     for (int i = 0; i < 10; ++i) {
-      const auto at = path.evaluate(s);
+      const auto at = path.template evaluate_columns<3>(s);
       const ValueAndSlope<T> residual = along(at);
       if (!(T(0) < residual.slope)) break;
       const T step = -residual.value / residual.slope;
       if (detail::magnitude(step) <= small_step) {
-        return frame_of(side, Node(at.value + step * at.slope), T(s + step));
+        if (lifting_steps-- == 0) {
+          return frame_of(side, Node(at.value + step * at.slope), T(s + step));
+        }
+        s = s + step;
+        continue;
       }
       const T next = detail::clamp(T(s + step), T(0), length());
       if (next == s) break;
@@ -143,9 +154,9 @@ class NodalTrack {
         value[k] = along(end[k]).value;
         const T below = k == 0 ? value[k] : from_value, above = k == 0 ? from_value : value[k];
         if (T(0) < below || above < T(0)) continue;
-        return bracketed_newton<T>(along, detail::min(from, end[k]), detail::max(from, end[k]),
-                                   below, above, from)
-            .position;
+        const auto root = bracketed_newton<T>(along, detail::min(from, end[k]),
+                                              detail::max(from, end[k]), below, above, from);
+        return lifted_root<T>(value_of(root.position), along);
       }
     }
     return T(0) / T(0);
@@ -205,7 +216,7 @@ class NodalTrack {
   TrackDimensions<T> dimensions_;
   detail::RailSeat<T> seat_;
   std::array<Path, 2> paths_;
-  T inclination_{};
+  T inclination_ = T(0);
 };
 
 }  // namespace wheelrail

@@ -9,6 +9,7 @@
 /// below.
 
 #include <array>
+#include <wheelrail/numerics/detail/arc_tangent.hpp>
 #include <wheelrail/surface/rail.hpp>
 #include <wheelrail/track/detail/rail_seat.hpp>
 
@@ -25,9 +26,9 @@ struct TrackDimensions {
 template <Profile R>
 class TangentTrack {
  public:
-  using Scalar = typename R::Scalar;
-  using T = Scalar;
-  using RailProfile = R;
+  using Scalar = typename R::Scalar;  ///< the numbers of its coordinates
+  using T = Scalar;                   ///< the same, short
+  using RailProfile = R;              ///< of the rails
 
   /// @param profile of both rails, not yet inclined, lateral coordinate to the field side.
   /// @throws std::invalid_argument unless the gauge is > 0 and the heads do not overlap, the
@@ -39,7 +40,6 @@ class TangentTrack {
   /// the middle. @throws std::invalid_argument as above.
   TangentTrack(R left, R right, const TrackDimensions<T>& dimensions)
       : rails_{Rail<R>(std::move(left)), Rail<R>(std::move(right))}, dimensions_(dimensions) {
-    using std::atan;
     for (const Side side : sides) {
       const auto seat =
           detail::RailSeat<T>::of(rail(side).profile(), dimensions_.gauge, dimensions_.inclination);
@@ -52,11 +52,13 @@ class TangentTrack {
       frame.axes_track << sign, T(0), T(0),             //
           T(0), sign * seat.cosine, -sign * seat.sine,  //
           T(0), seat.sine, seat.cosine;
-      frame.inclination = atan(dimensions_.inclination);
+      frame.inclination = detail::arc_tangent(dimensions_.inclination);
     }
   }
 
+  /// Of that side.
   [[nodiscard]] const Rail<R>& rail(Side side) const { return rails_[index_of(side)]; }
+  /// Gauge and inclination.
   [[nodiscard]] const TrackDimensions<T>& dimensions() const { return dimensions_; }
 
   /// Distance between the highest points of the two heads [m].

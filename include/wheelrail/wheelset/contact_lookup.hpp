@@ -99,9 +99,10 @@ class ContactLookup {
     return result;
   }
 
-  [[nodiscard]] const LookupReport<T>& report() const { return report_; }
+  [[nodiscard]] const LookupReport<T>& report() const { return report_; }  ///< its measured error
+  /// As they were given.
   [[nodiscard]] const ContactLookupOptions<T>& options() const { return options_; }
-  [[nodiscard]] Side side() const { return side_; }
+  [[nodiscard]] Side side() const { return side_; }  ///< of the wheel
 
   /// What nodes and flags take [bytes].
   [[nodiscard]] std::size_t memory() const {
@@ -111,7 +112,8 @@ class ContactLookup {
  private:
   struct Node {
     LookupContact<T> contact;
-    T height{}, by_shift{}, by_roll{};  // at which the wheel touches, and its gradient
+    T height = T(0), by_shift = T(0),
+      by_roll = T(0);  // at which the wheel touches, and its gradient
   };
   using Axis = detail::LookupAxis<T>;
   struct Cell {
@@ -138,7 +140,7 @@ class ContactLookup {
       const auto at = WheelsetPosition<T>::of(pose.lateral_shift, pose.height, pose.roll, pose.yaw);
       return find_contact(wheelset.wheel(side), track.rail(side),
                           place_wheel(wheelset, track, side, at),
-                          SearchOptions<T>{.zone_ends = false});
+                          SearchOptions<ValueOf<T>>{.zone_ends = false});
     }
     // The pose at which a wheel that touches penetrates, nearly.
     [[nodiscard]] Pose pressed(const Pose& at, const WheelTouch<T>& touch,
@@ -330,7 +332,7 @@ class ContactLookup {
     result.touching_height =
         weight_of(cell.yaw, 0) * highest[0] + weight_of(cell.yaw, 1) * highest[1];
     const T by_yaw = result.touching_height - highest[static_cast<std::size_t>(nearer)];
-    T deepest{}, drop{};
+    T deepest = T(0), drop = T(0);
     for (int c = 0; c < 4; ++c) {
       const LookupContact<T>& contact = corner(cell, c & 1, c >> 1, nearer).contact;
       const T below = height_by(c, nearer) + by_yaw - height;
@@ -378,7 +380,11 @@ class ContactLookup {
   void measure(const Online& online) {
     std::mt19937_64 engine(options_.seed);
     const auto uniform = [&engine](const T& lower, const T& upper) {
-      const T fraction = T(static_cast<double>(engine() >> 11) / 9007199254740992.0);
+      // The upper 53 bits, as two whole numbers that an int holds.
+      const std::uint64_t bits = engine() >> 11;
+      const T upper_part = T(static_cast<int>(bits >> 27));
+      const T lower_part = T(static_cast<int>(bits & ((1U << 27) - 1)));
+      const T fraction = (upper_part + lower_part / T(1 << 27)) / T(1 << 26);
       return T(lower + fraction * (upper - lower));
     };
     detail::LookupErrorSum<T> plain, flagged;

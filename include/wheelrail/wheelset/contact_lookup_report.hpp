@@ -56,7 +56,7 @@ struct ContactLookupResult {
   T touching_height = T(0) / T(0);  ///< of the axle's centre, at which the wheel touches [m]
   bool may_jump = false;            ///< the contact may be at another place: see contact_step
   bool may_have_several = false;    ///< there may be other patches, which the table leaves out
-  LookupStatus status = LookupStatus::not_finite;
+  LookupStatus status = LookupStatus::not_finite;  ///< what can be relied on
 
   /// Whether the pose lies in a cell whose error LookupReport lists as flagged.
   [[nodiscard]] bool is_flagged() const { return may_jump || may_have_several; }

@@ -132,9 +132,9 @@ template <Real T>
 struct EquivalentConicity {
   T conicity = T(0) / T(0);           ///< tan gamma_e by integration of the motion [-]
   T linear_regression = T(0) / T(0);  ///< half the slope of the straight line of least squares [-]
-  T least_shift{};                    ///< right turning point [m]
-  T greatest_shift{};                 ///< left turning point [m]
-  ConicityStatus status = ConicityStatus::not_finite;
+  T least_shift = T(0);               ///< right turning point [m]
+  T greatest_shift = T(0);            ///< left turning point [m]
+  ConicityStatus status = ConicityStatus::not_finite;  ///< whether there is one
 };
 
 /// When a rolling radius difference counts as none.
@@ -147,42 +147,83 @@ struct ConicityOptions {
 
 namespace detail {
 
-/// The sum of function(shift) (shift by angle) over the angle from -pi/2 to pi/2, for shift =
-/// middle + amplitude sin(angle): by eight points between neighbouring shifts of the curve, where
-/// all is smooth, over an eighth of a right angle at most.
-template <Real T, class Function>
-[[nodiscard]] T integral_over_motion(const RollingRadiusDifference<T>& curve, const T& middle,
-                                     const T& amplitude, Function&& function) {
+/// A motion from a turning point to the middle. Its depth at a shift, of the potential in which it
+/// swings: the integral of the rolling radius difference from there to a turning point on the left,
+/// or minus that from a turning point on the right.
+template <Real T>
+struct HalfMotion {
+  T duration = T(0);        ///< integral of dy / sqrt(2 depth) [-]
+  T tilt = T(0);            ///< integral of the difference times (shift - middle) [m3]
+  T greatest_depth = T(0);  ///< where it was looked at [m2]
+  T least_depth = T(0);     ///< the same, or 0 [m2]
+  bool is_deep = true;      ///< whether all of that is > 0: nowhere is the wheelset driven past it
+};
+
+/// The half of a motion of an amplitude [m] from the turning point on a side to the middle [m]. All
+/// lengths are counted from the turning point and all depths added up from there: near it the
+/// depth is small, and a difference of integrals over the whole curve would be all rounding.
+///
+/// With the shift a cosine of an angle all is smooth between neighbouring shifts of the curve:
+/// eight points there, over an eighth of a right angle at most.
+template <Real T>
+[[nodiscard]] HalfMotion<T> half_motion(const RollingRadiusDifference<T>& curve, Side side,
+                                        const T& middle, const T& amplitude) {
   using std::asin;
-  using std::cos;
   using std::sin;
-  const T right_angle = pi<T>() / T(2);
-  T sum = T(0);
-  T from = -right_angle;
-  const auto add_until = [&](const T& to) {
+  using std::sqrt;
+  const T outwards = outboard_sign<T>(side);
+  const std::vector<T>& shifts = curve.shifts();
+  HalfMotion<T> half;
+  T angle = T(0), distance = T(0), depth = T(0);
+  const T turning_shift = middle + outwards * amplitude;
+  T difference = outwards * curve.at(turning_shift);
+  // Up to the angle whose distance from the turning point is `end`, where the difference is `last`.
+  const auto add_until = [&](const T& end, const T& end_angle, const T& last) {
+    const T width = end - distance;
     int parts = 1;
-    while (right_angle * T(parts) < T(8) * (to - from) && parts < 16) ++parts;
-    const T half_width = (to - from) / T(2 * parts);
+    while (pi<T>() / T(2) * T(parts) < T(8) * (end_angle - angle) && parts < 16) ++parts;
+    const T half_angle = (end_angle - angle) / T(2 * parts);
     for (int i = 0; i < parts; ++i) {
-      const T centre = from + half_width * T(2 * i + 1);
+      const T centre = angle + half_angle * T(2 * i + 1);
       for (const QuadratureNode<T>& node : gauss_legendre_8<T>) {
         for (const T& offset : {node.abscissa, T(-node.abscissa)}) {
-          const T angle = centre + half_width * offset;
-          sum += node.weight * half_width * amplitude * T(cos(angle)) *
-                 function(T(middle + amplitude * T(sin(angle))));
+          const T at = centre + half_angle * offset;
+          // 1 - cos at, without its rounding.
+          const T inwards = T(2) * amplitude * square(T(sin(T(at / T(2))))) - distance;
+          const T own =
+              depth + inwards * (difference + (last - difference) * (inwards / width) / T(2));
+          half.greatest_depth = max(half.greatest_depth, own);
+          half.least_depth = min(half.least_depth, own);
+          half.is_deep = half.is_deep && T(0) < own;
+          if (!half.is_deep) continue;
+          half.duration +=
+              node.weight * half_angle * amplitude * T(sin(at)) / T(sqrt(T(T(2) * own)));
         }
       }
     }
-    from = to;
+    // Of two straight lines' product, by Simpson's rule.
+    const T from = amplitude - distance, to = amplitude - end;
+    half.tilt += width / T(6) * (difference * from + (difference + last) * (from + to) + last * to);
+    depth += width * (difference + last) / T(2);
+    distance = end;
+    angle = end_angle;
+    difference = last;
   };
-  // A corner so near to a turning point that rounding hides what is beyond is passed over.
-  const T last = T(1) - T(1 << 18) * epsilon<T>();
-  for (const T& shift : curve.shifts()) {
-    const T sine = (shift - middle) / amplitude;
-    if (-last < sine && sine < last) add_until(T(asin(sine)));
+  const bool is_left = side == Side::left;
+  const std::size_t n = shifts.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const T& shift = shifts[is_left ? n - 1 - i : i];
+    const T end = outwards * (turning_shift - shift);
+    if (!(distance < end)) continue;
+    if (!(end < amplitude)) break;
+    add_until(end, T(T(2) * T(asin(T(sqrt(T(end / (T(2) * amplitude))))))),
+              T(outwards * curve.at(shift)));
   }
-  add_until(right_angle);
-  return sum;
+  add_until(amplitude, T(pi<T>() / T(2)), T(outwards * curve.at(middle)));
+  half.is_deep = half.is_deep && T(0) < depth;
+  half.greatest_depth = max(half.greatest_depth, depth);
+  half.least_depth = min(half.least_depth, depth);
+  return half;
 }
 
 }  // namespace detail
@@ -235,28 +276,21 @@ template <Real T>
   }
   result.least_shift = middle - amplitude;
   result.greatest_shift = middle + amplitude;
-  const T top = curve.integral(result.greatest_shift);
-
-  T greatest_depth = T(0), least_depth = top - curve.integral(middle);  // of S(y_max) - S(y)
-  const T half_wave = detail::integral_over_motion(curve, middle, amplitude, [&](const T& shift) {
-    const T depth = top - curve.integral(shift);
-    greatest_depth = detail::max(greatest_depth, depth);
-    least_depth = detail::min(least_depth, depth);
-    return T(0) < depth ? T(T(1) / sqrt(T(T(2) * depth))) : T(0);
-  });
-  if (greatest_depth - detail::min(least_depth, T(0)) <= negligible) {
+  const auto left = detail::half_motion(curve, Side::left, middle, amplitude);
+  const auto right = detail::half_motion(curve, Side::right, middle, amplitude);
+  const T greatest_depth = detail::max(left.greatest_depth, right.greatest_depth);
+  const T least_depth = detail::min(left.least_depth, right.least_depth);
+  if (greatest_depth - least_depth <= negligible) {
     result.conicity = T(0);
-  } else if (T(0) < least_depth) {
-    result.conicity = detail::square(T(pi<T>() / half_wave)) / T(2);
+  } else if (left.is_deep && right.is_deep) {
+    result.conicity = detail::square(T(pi<T>() / (left.duration + right.duration))) / T(2);
   } else {
     result.status = ConicityStatus::not_restoring;
     return result;
   }
   // The line's slope is the integral of D (y - middle) over 2/3 amplitude^3.
-  const T tilt = detail::integral_over_motion(curve, middle, amplitude, [&](const T& shift) {
-    return T(curve.at(shift) * (shift - middle));
-  });
-  result.linear_regression = T(3) * tilt / (T(4) * amplitude * amplitude * amplitude);
+  result.linear_regression =
+      T(3) * (left.tilt + right.tilt) / (T(4) * amplitude * amplitude * amplitude);
   result.status = ConicityStatus::found;
   return result;
 }

@@ -21,10 +21,10 @@ struct KinematicsOptions {
   /// does not exceed the closeness are one, listed where it is least. At least 4 tolerances are
   /// taken.
   T closeness = constant<T>(1e-6L);
-  /// |penetration of the nearest point| <= tolerance [m]; 0 means 64 rounding units of the nominal
-  /// radius. With roll, the two wheels' heights agree to 16 of them.
+  /// |penetration of the nearest point| <= tolerance [m], >= 0; 0 means 64 rounding units of the
+  /// nominal radius. With roll, the two wheels' heights agree to 16 of them.
   T tolerance = T(0);
-  int maximum_iterations = 60;  ///< of a wheel's height, and of the roll
+  int maximum_iterations = 60;  ///< of a wheel's height, and of the roll, >= 1
 };
 
 /// How setting a wheel or a wheelset down ended.
@@ -33,7 +33,8 @@ enum class TouchStatus {
   no_contact,     ///< the wheel does not lie over its rail
   profile_end,    ///< the nearest point is an end of the wheel's or the rail's profile: no contact
   not_converged,  ///< an iteration or a contact search reached its limit
-  not_finite      ///< a NaN or an infinity went in or came up
+  not_finite,     ///< a NaN or an infinity went in or came up
+  bad_options     ///< an option breaks its rule: nothing was solved
 };
 
 /// The status in words, for messages and tables.
@@ -49,6 +50,8 @@ enum class TouchStatus {
       return "not_converged";
     case TouchStatus::not_finite:
       return "not_finite";
+    case TouchStatus::bad_options:
+      return "bad_options";
   }
   return "unknown";
 }
@@ -61,10 +64,10 @@ struct WheelTouch {
   /// The contact and all that are close to it; `penetration` is minus the gap [m]. A patch's zone
   /// is where penetration > -closeness.
   FixedList<Patch<T>, ContactResult<T>::maximum_patches> patches;
-  T height{};           ///< of the axle's centre, at which this wheel touches [m]
-  T height_by_shift{};  ///< d height / d lateral_shift at constant roll [-]
-  T height_by_roll{};   ///< d height / d roll at constant lateral shift [m/rad]
-  TouchStatus status = TouchStatus::not_finite;
+  T height = T(0);           ///< of the axle's centre, at which this wheel touches [m]
+  T height_by_shift = T(0);  ///< d height / d lateral_shift at constant roll [-]
+  T height_by_roll = T(0);   ///< d height / d roll at constant lateral shift [m/rad]
+  TouchStatus status = TouchStatus::not_finite;  ///< touching: all is there
 
   /// The contact. @pre status == touching
   [[nodiscard]] const Patch<T>& contact() const { return patches[0]; }
@@ -74,15 +77,16 @@ struct WheelTouch {
 /// each wheel mean anything.
 template <Real T>
 struct WheelsetKinematics {
-  T lateral_shift{};                    ///< of the axle's centre, to the left [m]
-  T yaw{};                              ///< to the left [rad]
-  T roll{};                             ///< [rad], positive where the left wheel rises
-  T height{};                           ///< of the axle's centre, the mean over both wheels [m]
-  T height_slope{};                     ///< d height / d lateral_shift, roll following [-]
-  T roll_slope{};                       ///< d roll / d lateral_shift [rad/m]
+  T lateral_shift = T(0);               ///< of the axle's centre, to the left [m]
+  T yaw = T(0);                         ///< to the left [rad]
+  T roll = T(0);                        ///< [rad], positive where the left wheel rises
+  T height = T(0);                      ///< of the axle's centre, the mean over both wheels [m]
+  T height_slope = T(0);                ///< d height / d lateral_shift, roll following [-]
+  T roll_slope = T(0);                  ///< d roll / d lateral_shift [rad/m]
   std::array<WheelTouch<T>, 2> wheels;  ///< ordered as `sides`
-  TouchStatus status = TouchStatus::not_finite;
+  TouchStatus status = TouchStatus::not_finite;  ///< touching: both wheels touch
 
+  /// That of one side.
   [[nodiscard]] const WheelTouch<T>& wheel(Side side) const { return wheels[index_of(side)]; }
 
   /// Rolling radius of the left wheel less that of the right one [m]; as a rule it grows with a
@@ -184,11 +188,11 @@ class WheelsetSetter {
       const auto placement =
           place_wheel(frame, wheel_track, Vector3<T>(outboard_sign<T>(side) * at.axle_track));
       const bool is_close = reach <= closeness_;
-      const auto found =
-          find_contact(wheel, track_.rail(side), placement,
-                       SearchOptions<T>{.penetration_threshold = -reach,
-                                        .maximum_penetration = wheel.nominal_radius(),
-                                        .zone_ends = is_close});
+      const auto found = find_contact(
+          wheel, track_.rail(side), placement,
+          SearchOptions<ValueOf<T>>{.penetration_threshold = -value_of(reach),
+                                    .maximum_penetration = value_of(wheel.nominal_radius()),
+                                    .zone_ends = is_close});
       touch.status = found.status == SearchStatus::not_finite ? TouchStatus::not_finite
                                                               : TouchStatus::not_converged;
       if (found.status != SearchStatus::complete) return touch;
@@ -287,6 +291,13 @@ class WheelsetSetter {
   T closeness_;
 };
 
+/// Whether each option keeps the rule in its comment.
+template <Real T>
+[[nodiscard]] bool are_valid(const KinematicsOptions<T>& options) {
+  return is_finite(options.closeness) && T(0) < options.closeness && is_finite(options.tolerance) &&
+         !(options.tolerance < T(0)) && 1 <= options.maximum_iterations;
+}
+
 /// What is known of a wheelset before anything is solved: level, on its nominal radii.
 template <Profile P>
 [[nodiscard]] WheelsetKinematics<typename P::Scalar> level_start(const Wheelset<P>& wheelset) {
@@ -317,8 +328,15 @@ template <Profile P, class Track>
     const Wheelset<P>& wheelset, const Track& track, const typename P::Scalar& lateral_shift,
     const typename P::Scalar& yaw = typename P::Scalar(0),
     const KinematicsOptions<typename P::Scalar>& options = {}) {
-  return detail::WheelsetSetter<P, Track>(wheelset, track, options, lateral_shift, yaw)
-      .run(detail::level_start(wheelset));
+  auto start = detail::level_start(wheelset);
+  if (!detail::are_valid(options)) {
+    start.lateral_shift = lateral_shift;
+    start.yaw = yaw;
+    for (auto& wheel : start.wheels) wheel.status = TouchStatus::bad_options;
+    start.status = TouchStatus::bad_options;
+    return start;
+  }
+  return detail::WheelsetSetter<P, Track>(wheelset, track, options, lateral_shift, yaw).run(start);
 }
 
 }  // namespace wheelrail

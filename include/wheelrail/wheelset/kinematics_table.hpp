@@ -3,6 +3,8 @@
 /// Contact kinematics over a range of lateral shifts, with the jumps of the contact points.
 /// May include: all but dynamics and io.
 
+#include <string>
+#include <utility>
 #include <vector>
 #include <wheelrail/core/require.hpp>
 #include <wheelrail/wheelset/kinematics.hpp>
@@ -14,7 +16,7 @@ template <Real T>
 struct KinematicsRange {
   T lower = constant<T>(-0.01L);  ///< least lateral shift [m]
   T upper = constant<T>(0.01L);   ///< greatest lateral shift [m], > lower
-  T step = constant<T>(0.5e-3L);  ///< between neighbouring shifts, at most [m], > 0
+  T step = constant<T>(0.5e-3L);  ///< between neighbouring shifts, at most (to rounding) [m], > 0
   T yaw = T(0);                   ///< of all of them, to the left [rad]
   /// Where a contact point moves by more than contact_step over the wheel from one shift to the
   /// next, shifts are put in between [m], > 0.
@@ -26,19 +28,19 @@ struct KinematicsRange {
 /// A contact point leaves one place of the wheel for another between two shifts of a table.
 template <Real T>
 struct ContactJump {
-  std::size_t before = 0;  ///< index of the shift before it; that after it is the next
-  Side side = Side::left;
-  T lateral_shift{};         ///< half-way between both [m]
-  T wheel_lateral_before{};  ///< contact point at the shift before [m]
-  T wheel_lateral_after{};   ///< contact point at the shift after [m]
+  std::size_t before = 0;         ///< index of the shift before it; that after it is the next
+  Side side = Side::left;         ///< of the wheel
+  T lateral_shift = T(0);         ///< half-way between both [m]
+  T wheel_lateral_before = T(0);  ///< contact point at the shift before [m]
+  T wheel_lateral_after = T(0);   ///< contact point at the shift after [m]
 };
 
 /// Kinematics over lateral shifts. Invariant: the shifts grow strictly; the first and the last one
 /// are the range's; all that are multiples of the step from its middle are there.
 template <Real T>
 struct KinematicsTable {
-  std::vector<WheelsetKinematics<T>> shifts;
-  std::vector<ContactJump<T>> jumps;  ///< in the order of lateral_shift
+  std::vector<WheelsetKinematics<T>> shifts;  ///< in the order of lateral_shift
+  std::vector<ContactJump<T>> jumps;          ///< in the order of lateral_shift
 };
 
 namespace detail {
@@ -103,7 +105,7 @@ class TableRefinement {
 /// Kinematics for the shifts of a range, from its middle outwards. A shift where the wheelset does
 /// not touch has its status in the table.
 /// @throws std::invalid_argument unless lower < upper, all steps are finite and > 0, and there are
-///   at most 100,000 steps.
+///   at most 100,000 steps, and unless the options keep their rules.
 /// @note Allocates.
 template <Profile P, class Track>
 [[nodiscard]] KinematicsTable<typename P::Scalar> kinematics_table(
@@ -118,11 +120,19 @@ template <Profile P, class Track>
   detail::require_positive("kinematics: step", range.step, "[m]");
   detail::require_positive("kinematics: contact step", range.contact_step, "[m]");
   detail::require_positive("kinematics: jump width", range.jump_width, "[m]");
+  detail::require_positive("kinematics: closeness", options.closeness, "[m]");
+  detail::require_not_negative("kinematics: tolerance", options.tolerance, "[m]");
+  detail::require(1 <= options.maximum_iterations,
+                  "kinematics: there are " + std::to_string(options.maximum_iterations) +
+                      " iterations at most, but there must be at least 1");
   const T half_width = (range.upper - range.lower) / T(2);
   detail::require(half_width < T(50000) * range.step, "kinematics: step", range.step,
                   "at least 1e-5 of the range [m]");
+  // What the ends are off by as rounded decimal numbers is no step of its own.
+  const T rounding = T(4) * epsilon<T>() *
+                     detail::max(detail::magnitude(range.lower), detail::magnitude(range.upper));
   int count = 1;  // on either side of the middle
-  while (range.step * T(count) < half_width) ++count;
+  while (range.step * T(count) < half_width - rounding) ++count;
   const T middle = range.lower + half_width;
   const auto shift = [&](int i) {
     if (i == -count) return range.lower;

@@ -11,9 +11,9 @@ namespace wheelrail {
 /// The nodes of a table along one coordinate: equally spaced, both bounds among them.
 template <Real T>
 struct LookupRange {
-  T lower{};  ///< [m] or [rad]
-  T upper{};  ///< [m] or [rad], > lower
-  T step{};   ///< between neighbours, at most [m] or [rad], > 0
+  T lower = T(0);  ///< [m] or [rad]
+  T upper = T(0);  ///< [m] or [rad], > lower
+  T step = T(0);   ///< between neighbours, at most [m] or [rad], > 0
 };
 
 namespace detail {
@@ -23,8 +23,8 @@ template <Real T>
 class LookupAxis {
  public:
   struct Place {
-    int index = -1;  // of the node before, -1 outside
-    T fraction{};    // of the interval
+    int index = -1;     // of the node before, -1 outside
+    T fraction = T(0);  // of the interval
   };
 
   LookupAxis() = default;
@@ -87,7 +87,7 @@ class LookupAxis {
     }
   }
 
-  T lower_{}, upper_{}, step_{};
+  T lower_ = T(0), upper_ = T(0), step_ = T(0);
   int intervals_ = 1;
 };
 

@@ -13,8 +13,9 @@ namespace wheelrail {
 /// The strip search, for any profiles. Called with a wheel, its rail and the placement.
 template <Real T>
 struct StripSearch {
-  SearchOptions<T> options{};
+  SearchOptions<ValueOf<T>> options{};  ///< of find_contact
 
+  /// The patches, as find_contact has them.
   template <Profile P, Profile R>
   [[nodiscard]] ContactResult<T> operator()(const Wheel<P>& wheel, const Rail<R>& rail,
                                             const WheelPlacement<T>& placement) const {
@@ -29,11 +30,13 @@ class WarmStripSearch {
  public:
   /// @note Allocates; searches do not.
   template <Profile P>
-  explicit WarmStripSearch(const Wheelset<P>& wheelset, const SearchOptions<T>& options = {})
+  explicit WarmStripSearch(const Wheelset<P>& wheelset,
+                           const SearchOptions<ValueOf<T>>& options = {})
       : options_(options),
-        memories_{SearchMemory<T>(wheelset.wheel(Side::left)),
-                  SearchMemory<T>(wheelset.wheel(Side::right))} {}
+        memories_{SearchMemory<ValueOf<T>>(wheelset.wheel(Side::left).values()),
+                  SearchMemory<ValueOf<T>>(wheelset.wheel(Side::right).values())} {}
 
+  /// The patches, as find_contact has them. Not const: it remembers.
   template <Profile P, Profile R>
   [[nodiscard]] ContactResult<T> operator()(const Wheel<P>& wheel, const Rail<R>& rail,
                                             const WheelPlacement<T>& placement) {
@@ -41,16 +44,17 @@ class WarmStripSearch {
   }
 
  private:
-  SearchOptions<T> options_;
-  std::array<SearchMemory<T>, 2> memories_;  // ordered as `sides`
+  SearchOptions<ValueOf<T>> options_;
+  std::array<SearchMemory<ValueOf<T>>, 2> memories_;  // ordered as `sides`
 };
 
 /// The minimum distance method, for convex profiles. Called like StripSearch.
 template <Real T>
 struct MinimumDistanceSearch {
-  ConvexParts<T> parts;  ///< of the wheel profile: `convex_parts(profile)`
-  MinimumDistanceOptions<T> options{};
+  ConvexParts<ValueOf<T>> parts;                 ///< of the wheel profile: `convex_parts(profile)`
+  MinimumDistanceOptions<ValueOf<T>> options{};  ///< of the method
 
+  /// The patches, as find_contact_by_minimum_distance has them.
   template <Profile P, Profile R>
   [[nodiscard]] ContactResult<T> operator()(const Wheel<P>& wheel, const Rail<R>& rail,
                                             const WheelPlacement<T>& placement) const {
@@ -67,11 +71,12 @@ class WarmMinimumDistanceSearch {
   /// @note Allocates; searches do not.
   template <Profile P>
   explicit WarmMinimumDistanceSearch(const Wheelset<P>& wheelset,
-                                     const MinimumDistanceOptions<T>& options = {})
+                                     const MinimumDistanceOptions<ValueOf<T>>& options = {})
       : options_(options),
         parts_{convex_parts(wheelset.wheel(Side::left).profile()),
                convex_parts(wheelset.wheel(Side::right).profile())} {}
 
+  /// The patches, as find_contact_by_minimum_distance has them. Not const: it remembers.
   template <Profile P, Profile R>
   [[nodiscard]] ContactResult<T> operator()(const Wheel<P>& wheel, const Rail<R>& rail,
                                             const WheelPlacement<T>& placement) {
@@ -81,9 +86,9 @@ class WarmMinimumDistanceSearch {
   }
 
  private:
-  MinimumDistanceOptions<T> options_;
-  std::array<ConvexParts<T>, 2> parts_;                 // ordered as `sides`
-  std::array<MinimumDistanceMemory<T>, 2> memories_{};  // ordered as `sides`
+  MinimumDistanceOptions<ValueOf<T>> options_;
+  std::array<ConvexParts<ValueOf<T>>, 2> parts_;                 // ordered as `sides`
+  std::array<MinimumDistanceMemory<ValueOf<T>>, 2> memories_{};  // ordered as `sides`
 };
 
 }  // namespace wheelrail

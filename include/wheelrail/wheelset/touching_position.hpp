@@ -15,19 +15,19 @@ struct TouchingOptions {
   /// |greatest penetration + gap| <= tolerance on both wheels [m]; 0 means 64 rounding units of the
   /// nominal radius.
   T tolerance = T(0);
-  int maximum_iterations = 40;
+  int maximum_iterations = 40;  ///< Newton steps
 };
 
 /// A wheelset set down. Invariant: status == converged implies residual <= the tolerance.
 template <Real T>
 struct TouchingPosition {
   WheelsetPosition<T> position;     ///< track frame
-  T height{};                       ///< of the axle's centre [m]
-  T roll{};                         ///< [rad]
+  T height = T(0);                  ///< of the axle's centre [m]
+  T roll = T(0);                    ///< [rad]
   std::array<Patch<T>, 2> patches;  ///< nearest points, left and right; penetration = -gap
-  T residual{};                     ///< the greater |penetration + gap| of both wheels [m]
-  int iterations = 0;
-  SolveStatus status = SolveStatus::not_finite;
+  T residual = T(0);                ///< the greater |penetration + gap| of both wheels [m]
+  int iterations = 0;               ///< Newton steps
+  SolveStatus status = SolveStatus::not_finite;  ///< converged: it stands there
 };
 
 namespace detail {
@@ -41,10 +41,11 @@ template <Profile P, Profile R>
   using T = typename P::Scalar;
   // A threshold below any distance that can occur: all of the wheel is one zone. While the solution
   // is sought, the wheel may lie deep in the rail.
+  const ValueOf<T> radius = value_of(wheel.nominal_radius());
   const auto found =
       find_contact(wheel, rail, placement,
-                   SearchOptions<T>{.penetration_threshold = -T(10) * wheel.nominal_radius(),
-                                    .maximum_penetration = wheel.nominal_radius()});
+                   SearchOptions<ValueOf<T>>{.penetration_threshold = -ValueOf<T>(10) * radius,
+                                             .maximum_penetration = radius});
   Patch<T> deepest;
   deepest.wheel_lateral = T(0) / T(0);
   if (found.status != SearchStatus::complete) return deepest;
@@ -82,6 +83,7 @@ template <Profile P, class Track>
   TouchingPosition<T> result;
   result.height = radius;
   result.roll = T(0);
+  int lifting_steps = ScalarTraits<T>::lifting_steps;
   while (true) {
     result.position = WheelsetPosition<T>::of(lateral_shift, result.height, result.roll, yaw);
     result.position.position_track.x() = result.position.arc_length = longitudinal;
@@ -107,7 +109,8 @@ template <Profile P, class Track>
       result.status = SolveStatus::not_finite;
       return result;
     }
-    if (result.residual <= tolerance) {
+    // A step more, of rounding, has the derivatives of the solution.
+    if (result.residual <= tolerance && lifting_steps-- == 0) {
       result.status = SolveStatus::converged;
       return result;
     }

@@ -48,8 +48,8 @@ struct WheelsetMotion {
 template <Profile P>
 class Wheelset {
  public:
-  using Scalar = typename P::Scalar;
-  using T = Scalar;
+  using Scalar = typename P::Scalar;  ///< the numbers of its coordinates
+  using T = Scalar;                   ///< the same, short
 
   /// Equal wheels.
   /// @param profile_spacing distance of the two profiles' origins along the axle [m] (H of (6)).
@@ -64,8 +64,9 @@ class Wheelset {
     detail::require_positive("wheelset: profile spacing", profile_spacing_, "[m]");
   }
 
+  /// That of one side.
   [[nodiscard]] const Wheel<P>& wheel(Side side) const { return wheels_[index_of(side)]; }
-  [[nodiscard]] const T& profile_spacing() const { return profile_spacing_; }
+  [[nodiscard]] const T& profile_spacing() const { return profile_spacing_; }  ///< H of (6) [m]
 
   /// (35): the wheel profile's origin [m], track frame.
   [[nodiscard]] Vector3<T> wheel_track(Side side, const WheelsetPosition<T>& at) const {

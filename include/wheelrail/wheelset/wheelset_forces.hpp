@@ -13,23 +13,26 @@ namespace wheelrail {
 /// points forward, lateral_track to the left, normal_track from the rail into the wheel.
 template <Real T>
 struct PatchForce {
-  Patch<T> patch;
-  ContactForce<T> contact;  ///< components in the contact frame, on the wheel
-  Vector3<T> position_track = Vector3<T>::Zero();  ///< the wheel's contact point Q [m]
-  Vector3<T> longitudinal_track = Vector3<T>::UnitX();
-  Vector3<T> lateral_track = Vector3<T>::UnitY();
-  Vector3<T> normal_track = Vector3<T>::UnitZ();
-  Vector3<T> force_track = Vector3<T>::Zero();  ///< total force on the wheel [N]
-  T penetration_velocity{};                     ///< (65) with its erratum mended [m/s]
+  Patch<T> patch;  ///< as the search found it
+  /// Components in the contact frame, on the wheel: the forces times patch.share; the ellipse and
+  /// the stiffness are those of the whole force.
+  ContactForce<T> contact;
+  Vector3<T> position_track = Vector3<T>::Zero();       ///< the wheel's contact point Q [m]
+  Vector3<T> longitudinal_track = Vector3<T>::UnitX();  ///< x of the contact frame [-]
+  Vector3<T> lateral_track = Vector3<T>::UnitY();       ///< y of the contact frame [-]
+  Vector3<T> normal_track = Vector3<T>::UnitZ();        ///< z of the contact frame [-]
+  Vector3<T> force_track = Vector3<T>::Zero();          ///< total force on the wheel [N]
+  T penetration_velocity = T(0);                        ///< (65) with its erratum mended [m/s]
 };
 
 /// One wheel of a wheelset.
 template <Real T>
 struct WheelForces {
+  /// In the order of ContactResult.
   FixedList<PatchForce<T>, ContactResult<T>::maximum_patches> patches;
   Vector3<T> force_track = Vector3<T>::Zero();   ///< sum over the patches [N]
   Vector3<T> moment_track = Vector3<T>::Zero();  ///< about the axle's centre [N m]
-  T arc_length{};                                ///< of the rail frame under the wheel [m]
+  T arc_length = T(0);                           ///< of the rail frame under the wheel [m]
   SearchStatus status = SearchStatus::complete;  ///< of the search: what patches can be relied on
   int evaluations = 0;  ///< of the search, as ContactResult counts them [-]
 };
@@ -41,6 +44,7 @@ struct WheelsetForces {
   Vector3<T> force_track = Vector3<T>::Zero();   ///< on the wheelset [N]
   Vector3<T> moment_track = Vector3<T>::Zero();  ///< on the wheelset, about the axle's centre [N m]
 
+  /// That of one side.
   [[nodiscard]] const WheelForces<T>& wheel(Side side) const { return wheels[index_of(side)]; }
 };
 
@@ -74,8 +78,13 @@ template <Real T>
   contact.spin_velocity = dot(motion.angular_velocity_track, normal_track);
   contact.forward_speed = outboard_sign<T>(frame.side) *
                           dot(motion.velocity_track, Vector3<T>(frame.axes_track.col(0)));
-  contact.speed = sqrt(dot(motion.velocity_track, motion.velocity_track));
-  const ContactForce<T> force = model(contact);
+  // At rest the speed has no derivative; those of the forces do not depend on it there.
+  const T squared_speed = dot(motion.velocity_track, motion.velocity_track);
+  contact.speed = squared_speed == T(0) ? T(0) : T(sqrt(squared_speed));
+  ContactForce<T> force = model(contact);
+  force.normal *= patch.share;
+  force.creep.longitudinal *= patch.share;
+  force.creep.lateral *= patch.share;
   return {.patch = patch,
           .contact = force,
           .position_track = position_track,
@@ -122,7 +131,9 @@ template <Profile P, class Track, class Search>
 /// @param track anything with `rail(side)` and `nearest_frame(side, point_track, guess)`.
 /// @param at where the wheelset is, @param motion how it moves, both in the track frame.
 /// @param search StripSearch or, from step to step, WarmStripSearch for any profile;
-///   MinimumDistanceSearch or WarmMinimumDistanceSearch for convex ones.
+///   MinimumDistanceSearch or WarmMinimumDistanceSearch for convex ones. With `{.blending_length =
+///   0.003}` the first two give a wrench that does not jump, for solvers that rely on its
+///   derivatives: see contact/patch_blending.hpp. A model without_kinks() belongs to it.
 /// @return patches, forces and the wrench about the axle's centre. The creep moment about a
 ///   contact's normal is neglected (80).
 /// @note Does not allocate. A mirrored input gives the mirrored result to the last bit.

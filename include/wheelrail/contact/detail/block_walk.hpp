@@ -92,7 +92,7 @@ class BlockWalk {
   struct Zone {
     std::size_t item = 0;
     std::size_t deepest = 0;
-    T lower{}, upper{};
+    T lower = T(0), upper = T(0);
     bool is_cut = false;
   };
   // Where a zone ends between two strips.
@@ -416,7 +416,7 @@ class BlockWalk {
   const PlacementBatch<T>& placements_;
   const SearchOptions<T>& options_;
   T margin_;  // as in StripWalk
-  T grid_{};
+  T grid_ = T(0);
   std::vector<Item> items_;
   std::vector<PenetrationBounds<R>> bounds_;  // of each item
   std::vector<StripOf> strips_;

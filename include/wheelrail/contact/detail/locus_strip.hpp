@@ -9,11 +9,11 @@ namespace wheelrail::detail {
 // A strip with its penetration and d penetration / d wheel_lateral.
 template <Real T>
 struct LocusStrip {
-  T wheel_lateral{};  // [m]
-  T rail_lateral{};   // of the foot [m]
-  T penetration{};    // [m]
-  T slope{};          // [-]
-  T slope_rate{};     // d slope / d wheel_lateral; as find_contact.hpp has it [1/m]
+  T wheel_lateral = T(0);  // [m]
+  T rail_lateral = T(0);   // of the foot [m]
+  T penetration = T(0);    // [m]
+  T slope = T(0);          // [-]
+  T slope_rate = T(0);     // d slope / d wheel_lateral; as find_contact.hpp has it [1/m]
   Vector2<T> normal_rail{T(0), T(0)};  // out of the rail at the foot: (lateral, up)
   int piece = -1;                      // of the wheel's profile
   bool exists = false;   // false where the strip has no locus point, or the rail no foot for it
@@ -35,12 +35,12 @@ struct LocusStrip {
 // What a strip keeps within while the wheel moves.
 template <Real T>
 struct MovingStrip {
-  T wheel_lateral{};
-  T penetration{}, penetration_change{};  // [m]
-  T slope{}, slope_change{};              // [-]
-  T foot{}, foot_change{};                // [m]
-  Vector2<T> normal_lower, normal_upper;  // of the rail at both ends of the foot's range
-  bool exists = false;                    // in all of its range, and nothing of it is unbounded
+  T wheel_lateral = T(0);
+  T penetration = T(0), penetration_change = T(0);  // [m]
+  T slope = T(0), slope_change = T(0);              // [-]
+  T foot = T(0), foot_change = T(0);                // [m]
+  Vector2<T> normal_lower, normal_upper;            // of the rail at both ends of the foot's range
+  bool exists = false;  // in all of its range, and nothing of it is unbounded
 
   [[nodiscard]] T least_penetration() const { return penetration - penetration_change; }
   [[nodiscard]] T greatest_penetration() const { return penetration + penetration_change; }

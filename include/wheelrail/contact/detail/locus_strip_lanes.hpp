@@ -94,7 +94,8 @@ template <Profile P, Profile R>
   const Lanes<T> y = u * at.cos_yaw - radius * slope * fold;
   const Lanes<T> z = -radius * cosine;
   const Lanes<T> y_rate = at.cos_yaw - (slope * slope + radius * bend) * fold;
-  const Lanes<T> z_rate = -slope * cosine + radius * at.tan_yaw * sine * bend / cosine;
+  const Lanes<T> inverse_cosine = T(1) / cosine;
+  const Lanes<T> z_rate = -slope * cosine + radius * at.tan_yaw * sine * bend * inverse_cosine;
   const Lanes<T> lateral = at.lateral_rail + at.cos_roll * y - at.sin_roll * z;
   const Lanes<T> up = at.up_rail + at.sin_roll * y + at.cos_roll * z;
   const Lanes<T> lateral_rate = at.cos_roll * y_rate - at.sin_roll * z_rate;
@@ -106,7 +107,8 @@ template <Profile P, Profile R>
   const Lanes<T> squared_tan_yaw = at.tan_yaw * at.tan_yaw;
   const Lanes<T> y_bend = T(-3) * squared_tan_yaw * at.cos_yaw * slope * bend;
   const Lanes<T> z_bend =
-      -bend * cosine + squared_tan_yaw * bend * (T(2) * steepness + radius * bend);
+      -bend * cosine + squared_tan_yaw * bend * inverse_cosine *
+                           (T(2) * steepness + radius * bend * inverse_cosine * inverse_cosine);
   const Lanes<T> along = n_z * lateral_rate - n_y * up_rate;
   LocusStripLanes<T> result;
   result.wheel_lateral = u;

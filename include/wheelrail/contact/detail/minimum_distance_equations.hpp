@@ -43,14 +43,14 @@ class MinimumDistanceEquations {
   /// Two points and what their residuals and the Jacobian are made of.
   struct Pair {
     ProfilePoint<T> on_wheel, on_rail;
-    T radius{};           // of the wheel's point [m]
-    T wheel_cosine{};     // of gamma, the wheel profile's own slope angle
-    T rail_length{};      // sqrt(1 + f'^2)
-    Vector3<T> distance;  // d of (29) and the rail's vectors, all along the strip
+    T radius = T(0);        // of the wheel's point [m]
+    T wheel_cosine = T(0);  // of gamma, the wheel profile's own slope angle
+    T rail_length = T(0);   // sqrt(1 + f'^2)
+    Vector3<T> distance;    // d of (29) and the rail's vectors, all along the strip
     Vector3<T> along_rail, rail_tangent, rail_normal;
     Vector residual;
-    T norm{};         // of the residual: the larger of |d.t| / nominal radius and |n.t| [-]
-    T penetration{};  // -n_r.d [m]
+    T norm = T(0);         // of the residual: the larger of |d.t| / nominal radius and |n.t| [-]
+    T penetration = T(0);  // -n_r.d [m]
   };
 
   /// Residuals without the Jacobian.

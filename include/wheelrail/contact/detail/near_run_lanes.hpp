@@ -16,7 +16,7 @@ void for_each_near_run(const Wheel<P>& wheel, const Rail<R>& rail,
   using T = typename P::Scalar;
   const auto& nodes = wheel.strips().nodes();
   const auto& lines = rail.supporting_lines();
-  const int widest = rail.is_convex() ? widest_above_own_line : 0;
+  const int widest = rail.is_convex() ? widest_above_line : 0;
   const Lanes<T> axle_lateral = at.cos_roll * at.cos_yaw, axle_up = at.sin_roll * at.cos_yaw;
   const Lanes<T> fold = at.sin_yaw * at.tan_yaw;
   Lanes<T> along = Lanes<T>::Zero(),
@@ -39,14 +39,16 @@ void for_each_near_run(const Wheel<P>& wheel, const Rail<R>& rail,
     const StripNode<T>& node = nodes[index];
     const T place = T(static_cast<int>(index)), skip = T(static_cast<int>(node.skip));
     const Lanes<T> looks = T(1) - less<T>(all_lanes(place), resume);
-    Lanes<T> is_kept = looks * is_near(node);
+    const bool is_tested = node.last - node.first <= widest;
+    Lanes<T> is_kept = looks;
+    if (is_tested) is_kept = looks * is_near(node);
     bool is_any_kept = any<T>(is_kept);
-    if (is_any_kept && node.last - node.first <= widest) {
-      const Lanes<T> y = node.centre - node.greatest_radius * node.slope * fold;
-      const Lanes<T> z = -node.greatest_radius * (T(1) - node.slope * node.slope * fold / T(2));
+    if (is_any_kept && is_tested) {
+      const T& radius = node.greatest_radius;
+      const Lanes<T> y = node.centre - radius * (node.slope * fold);
       Lanes<T> normal_lateral, normal_up, line_height;
-      lines.near_each(at.lateral_rail + y * at.cos_roll - z * at.sin_roll,
-                      at.up_rail + y * at.sin_roll + z * at.cos_roll,
+      lines.near_each(at.lateral_rail + y * at.cos_roll + radius * at.sin_roll,
+                      at.up_rail + y * at.sin_roll - radius * at.cos_roll,
                       [&](int lane, const SupportingLine<T>& line) {
                         normal_lateral[lane] = line.normal.x();
                         normal_up[lane] = line.normal.y();

@@ -38,7 +38,7 @@ enum class Verdict {
 template <Real T>
 struct Judgement {
   Verdict verdict = Verdict::open;
-  T variation{};           ///< by which it varies at most [m]
+  T variation = T(0);      ///< by which it varies at most [m]
   bool is_bounded = true;  ///< false where the yaw is too great for the bounds as they are
 };
 
@@ -46,8 +46,8 @@ struct Judgement {
 /// distance, o its profile's origin, a the axle's direction; reach >= |u| + R for all its strips.
 template <Real T>
 struct WheelMotion {
-  T distance{};  ///< [m]
-  T reach{};     ///< [m]
+  T distance = T(0);  ///< [m]
+  T reach = T(0);     ///< [m]
 
   /// By how much yaw and roll may each change [rad]. @pre 100 distance <= reach, here and below
   [[nodiscard]] T greatest_turn(const T& tan_yaw) const {
@@ -171,25 +171,29 @@ class PenetrationBounds {
     const T first_foot = min(left.least_foot(), right.least_foot());
     const T last_foot = max(left.greatest_foot(), right.greatest_foot());
     // Along the axes that the wheel's roll turns.
-    T least_up = T(1), greatest_up = T(0);
-    bool leans_left = false, leans_right = false;
+    T least_up = T(1), greatest_up = T(0), least_lateral = T(1), greatest_lateral = T(-1);
     const auto take = [&](const Vector2<T>& normal) {
       const T up = normal.y() * cos_roll_ - normal.x() * sin_roll_;
       const T lateral = normal.x() * cos_roll_ + normal.y() * sin_roll_;
-      least_up = min(least_up, T(up - turn_));
-      greatest_up = max(greatest_up, T(up + turn_));
-      leans_left = leans_left || !(turn_ < lateral);
-      leans_right = leans_right || !(lateral < -turn_);
+      least_up = min(least_up, up);
+      greatest_up = max(greatest_up, up);
+      least_lateral = min(least_lateral, lateral);
+      greatest_lateral = max(greatest_lateral, lateral);
     };
     take(left.normal_at_least_foot());
-    take(left.normal_at_greatest_foot());
-    take(right.normal_at_least_foot());
     take(right.normal_at_greatest_foot());
-    if (leans_left && leans_right) greatest_up = T(1);
+    if constexpr (!std::is_same_v<End, LocusStrip<T>>) {
+      take(left.normal_at_greatest_foot());
+      take(right.normal_at_least_foot());
+    }
+    least_up = least_up - turn_;
+    greatest_up = greatest_up + turn_;
+    const bool may_be_upright = !(turn_ < least_lateral) && !(greatest_lateral < -turn_);
+    if (may_be_upright) greatest_up = T(1);
     const T wheel_bend =
         bend - hollow +
         shape.greatest_second * (shape.greatest_second < T(0) ? T(least_up * cosine) : greatest_up);
-    const T curvature = rail_.least_curvature(first_foot, last_foot);
+    const auto [curvature, greatest_curvature] = rail_.curvatures(first_foot, last_foot);
     const T gap =
         max(T(0), T(variation - min(left.least_penetration(), right.least_penetration())));
     const T greatest_bend =
@@ -204,7 +208,6 @@ class PenetrationBounds {
     const T greatest_speed = (T(1) + slope_squared) * square(stretch);
     const T deepest =
         max(T(0), T(max(left.greatest_penetration(), right.greatest_penetration()) + variation));
-    const T greatest_curvature = rail_.greatest_curvature(first_foot, last_foot);
     const T wheel_bend_least =
         least_up * cosine * shape.least_second - by_yaw - twist * steepest -
         T(2) * yaw * radius * square(shape.second) / (square(cosine) * cosine);

@@ -57,8 +57,7 @@ template <std::size_t MaximumJoints, Real T>
 template <Real T, std::size_t MaximumJoints>
 class JointGroupEquations {
  public:
-  using Solver = SemidefiniteCholesky<T, 5 * static_cast<int>(MaximumJoints)>;
-  using Vector = typename Solver::Vector;
+  using Vector = typename SemidefiniteCholesky<T, 5 * static_cast<int>(MaximumJoints)>::Vector;
   using Rotation = Eigen::Matrix<T, 5, 3, Eigen::DontAlign>;
   using Jacobian = typename JointEquations<T>::Jacobian;
 
@@ -78,11 +77,37 @@ class JointGroupEquations {
   template <class Forces>
   [[nodiscard]] Vector multipliers(const Forces& inverse_masses, const Forces& forces,
                                    const T& alpha, const T& beta) const {
-    const Eigen::Index rows = 5 * static_cast<Eigen::Index>(size_);
+    if (size_ == 1) {  // as most are: sizes that the compiler knows
+      return solve<SemidefiniteCholesky<T, 5, 5>>(1, inverse_masses, forces, alpha, beta);
+    }
+    return solve<SemidefiniteCholesky<T, 5 * static_cast<int>(MaximumJoints)>>(
+        size_, inverse_masses, forces, alpha, beta);
+  }
+
+  // -Phi_q^T lambda of joint i on its side (0 is a, 1 is b), as RigidBody's generalized_force.
+  [[nodiscard]] Vector6<T> reaction(std::size_t i, std::size_t side, const Vector& lambda) const {
+    const Jacobian& jacobian = equations_[i].jacobians[side];
+    Vector6<T> reaction;
+    const Vector5<T> pull = -lambda.template segment<5>(row(i));
+    reaction.template head<3>() = translation(jacobian).cwiseProduct(pull.template head<3>());
+    reaction.template tail<3>() = rotation(jacobian).transpose().lazyProduct(pull);
+    return reaction;
+  }
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] const std::array<int, 2>& bodies(std::size_t i) const { return bodies_[i]; }
+
+ private:
+  // size == size_; a number that the compiler knows with a solver of known size.
+  template <class Solver, class Forces>
+  [[nodiscard]] typename Solver::Vector solve(std::size_t size, const Forces& inverse_masses,
+                                              const Forces& forces, const T& alpha,
+                                              const T& beta) const {
+    const Eigen::Index rows = 5 * static_cast<Eigen::Index>(size);
     typename Solver::Matrix matrix = Solver::Matrix::Zero(rows, rows);
-    Vector rhs(rows);
+    typename Solver::Vector rhs(rows);
     const T twice_alpha = T(2) * alpha, beta_squared = beta * beta;
-    for (std::size_t i = 0; i < size_; ++i) {
+    for (std::size_t i = 0; i < size; ++i) {
       const JointEquations<T>& e = equations_[i];
       Vector5<T> sum = twice_alpha * e.residual_rate + beta_squared * e.residual - e.gamma;
       for (std::size_t side = 0; side < 2; ++side) {
@@ -112,20 +137,6 @@ class JointGroupEquations {
     return Solver(matrix).solve(rhs);
   }
 
-  // -Phi_q^T lambda of joint i on its side (0 is a, 1 is b), as RigidBody's generalized_force.
-  [[nodiscard]] Vector6<T> reaction(std::size_t i, std::size_t side, const Vector& lambda) const {
-    const Jacobian& jacobian = equations_[i].jacobians[side];
-    Vector6<T> reaction;
-    const Vector5<T> pull = -lambda.template segment<5>(row(i));
-    reaction.template head<3>() = translation(jacobian).cwiseProduct(pull.template head<3>());
-    reaction.template tail<3>() = rotation(jacobian).transpose().lazyProduct(pull);
-    return reaction;
-  }
-
-  [[nodiscard]] std::size_t size() const { return size_; }
-  [[nodiscard]] const std::array<int, 2>& bodies(std::size_t i) const { return bodies_[i]; }
-
- private:
   // What of the columns of a translation is not zero: the diagonal of the point's rows.
   static auto translation(const Jacobian& jacobian) {
     return jacobian.template topLeftCorner<3, 3>().diagonal();

@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cstddef>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -95,7 +94,7 @@ class ProfileText {
   [[nodiscard]] std::size_t last_line() const { return last_line_; }
 
   [[noreturn]] void refuse(std::size_t line, const std::string& reason) const {
-    throw std::invalid_argument(joined({name_, ":", std::to_string(line), ": ", reason}));
+    throw_or_abort(joined({name_, ":", std::to_string(line), ": ", reason}));
   }
 
   // @p field as a finite number; refuses all else.

@@ -10,7 +10,7 @@ namespace wheelrail::detail {
 /// A pair of abscissae, +abscissa and -abscissa on [-1, 1], and the weight of each.
 template <Real T>
 struct QuadratureNode {
-  T abscissa{}, weight{};
+  T abscissa = T(0), weight = T(0);
 };
 
 /// Eight points: exact for polynomials up to degree 15.

@@ -4,7 +4,7 @@
 /// which the gauge is measured. May include: core, numerics, profile, surface.
 
 #include <wheelrail/core/require.hpp>
-#include <wheelrail/numerics/bracketed_root.hpp>
+#include <wheelrail/numerics/lifted_root.hpp>
 #include <wheelrail/profile/profile.hpp>
 
 namespace wheelrail {
@@ -22,8 +22,8 @@ template <Profile R>
 struct InclinedProfile {
   using T = typename R::Scalar;
   const R& profile;
-  T sine{};
-  T cosine{};
+  T sine = T(0);
+  T cosine = T(0);
 
   [[nodiscard]] T outboard(const T& u, const ProfilePoint<T>& point) const {
     return cosine * u - sine * point.value;
@@ -54,7 +54,13 @@ struct InclinedProfile {
         const T right = i == samples ? upper : T(lower + (upper - lower) * T(i) / T(samples));
         const T rise_right = rise(right);
         if (T(0) < rise_left && !(T(0) < rise_right)) {
-          offer(bracketed_root<T>(rise, left, right, rise_left, rise_right).position);
+          offer(lifted_root<T>(
+              value_of(bracketed_root<T>(rise, left, right, rise_left, rise_right).position),
+              [&](const T& u) {
+                const ProfilePoint<T> point = profile.evaluate(piece, u);
+                return ValueAndSlope<T>{sine + cosine * point.slope,
+                                        cosine * point.second_derivative};
+              }));
         }
         offer(right);
         left = right;
@@ -74,7 +80,12 @@ struct InclinedProfile {
                                 " m below the highest point, but must reach at least " +
                                 to_text(depth) + " m, where the gauge is measured");
     const auto above = [&](const T& u) { return T(up(u, profile.evaluate(u)) - level); };
-    return bracketed_root<T>(above, profile.lower(), top, T(lowest - level), depth).position;
+    return lifted_root<T>(
+        value_of(bracketed_root<T>(above, profile.lower(), top, T(lowest - level), depth).position),
+        [&](const T& u) {
+          const ProfilePoint<T> point = profile.evaluate(u);
+          return ValueAndSlope<T>{up(u, point) - level, sine + cosine * point.slope};
+        });
   }
 };
 

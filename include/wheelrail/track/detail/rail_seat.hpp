@@ -10,11 +10,12 @@ namespace wheelrail::detail {
 /// Place of a rail profile's origin in the track's section, the same on both sides.
 template <Real T>
 struct RailSeat {
-  T half_distance{};   ///< of the profile's origin from the track's middle, to the field side [m]
-  T height{};          ///< of the profile's origin over the track plane [m]
-  T head_distance{};   ///< between the highest points of the two heads [m]
-  T clearance{};       ///< between the profiles where they come nearest [m], at their joints
-  T sine{}, cosine{};  ///< of the inclination
+  T half_distance =
+      T(0);         ///< of the profile's origin from the track's middle, to the field side [m]
+  T height = T(0);  ///< of the profile's origin over the track plane [m]
+  T head_distance = T(0);  ///< between the highest points of the two heads [m]
+  T clearance = T(0);      ///< between the profiles where they come nearest [m], at their joints
+  T sine = T(0), cosine = T(0);  ///< of the inclination
 
   /// @throws std::invalid_argument unless the gauge is > 0 and the heads do not overlap, the slope
   ///   of inclination is in (-0.5, 0.5), and the profile reaches 14 mm below its highest point.
