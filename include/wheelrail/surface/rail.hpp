@@ -97,10 +97,12 @@ class Rail {
       requires(!has_derivatives<T>) {
     return search_.curvatures(one, other);
   }
+  /// The one of them.
   [[nodiscard]] T least_curvature(const T& one, const T& other) const
       requires(!has_derivatives<T>) {
     return curvatures(one, other).least;
   }
+  /// The other.
   [[nodiscard]] T greatest_curvature(const T& one, const T& other) const
       requires(!has_derivatives<T>) {
     return curvatures(one, other).greatest;
