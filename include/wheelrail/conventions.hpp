@@ -139,4 +139,9 @@
 ///   difference and contact points over lateral shifts: @ref wheelset/kinematics_table.hpp;
 ///   equivalent conicity: @ref wheelset/equivalent_conicity.hpp
 /// - A lookup table of the contact with its measured error: @ref wheelset/contact_lookup.hpp
-/// - Derivatives of everything by dual numbers: @ref core/dual.hpp
+/// - Derivatives of everything by dual numbers: @ref core/dual.hpp, or others that
+///   @ref core/scalar_value.hpp knows; roots get theirs in @ref numerics/lifted_root.hpp. Without dual
+///   numbers: @ref force/creep_jacobian.hpp, @ref wheelset/contact_linearization.hpp
+/// - A wrench that does not jump: @ref contact/patch_blending.hpp
+/// - Largest stable steps: @ref numerics/explicit_method.hpp, @ref dynamics/stable_step.hpp
+/// - The version: @ref version.hpp
