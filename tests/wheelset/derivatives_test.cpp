@@ -154,7 +154,7 @@ std::vector<long double> differences(const Values<double>& x, int k, const std::
   const auto i = static_cast<std::size_t>(k);
   const auto at = [&](long double step) {
     Values<long double> moved;
-    for (std::size_t j = 0; j < count; ++j) moved[j] = x[j];
+    for (std::size_t j = 0; j < count; ++j) moved[j] = static_cast<long double>(x[j]);
     moved[i] += step;
     const auto result = forces(moved);
     is_smooth = is_smooth && pieces(result) == where;
@@ -215,8 +215,9 @@ TEST_CASE("wheelset_forces: dual numbers have the derivatives of differences",
         acts[k] = acts[k] || std::abs(expected[k][n]) > 1e-3L;
       }
       for (std::size_t k = 0; k < count; ++k) {
-        const double error =
-            static_cast<double>(std::abs(duals[n].derivatives[k] - expected[k][n]) * scales[k]);
+        const double error = static_cast<double>(
+            std::abs(static_cast<long double>(duals[n].derivatives[k]) - expected[k][n]) *
+            scales[k]);
         INFO("pose " << pose << ", number " << n << ", parameter " << k << ", difference "
                      << expected[k][n] << ", dual " << duals[n].derivatives[k]);
         CHECK(error <= 1e-8 * size + 1e-15 * std::max(1.0, std::abs(value_of(plains[n]))));
@@ -298,7 +299,7 @@ TEST_CASE("touching_position: height and roll have the derivatives of difference
   const auto dual = touch(Two(0.003, 0), Two(0.005, 1));
   REQUIRE(dual.status == SolveStatus::converged);
   using L = long double;
-  const L shift = 0.003, turn = 0.005, h = 1e-6L;
+  const L shift = static_cast<L>(0.003), turn = static_cast<L>(0.005), h = 1e-6L;
   const auto slope = [&](L dx, L dy, auto get) {
     const auto across = [&](L s) { return get(touch(shift + s * dx, turn + s * dy)); };
     return static_cast<double>((8 * (across(h) - across(-h)) - (across(2 * h) - across(-2 * h))) /
