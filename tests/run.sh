@@ -1,17 +1,18 @@
 #!/bin/sh
-# Build and run all tests on Debian 12, with g++ or with clang++ and sanitizers; warnings as errors.
+# Build and run all tests on Debian 12, with g++ or with clang++; warnings as errors.
 set -eu
 
 usage() {
   cat <<'TEXT'
-usage: tests/run.sh [--compiler g++|clang++] [--full] [--slow] [--help]
+usage: tests/run.sh [--compiler g++|clang++] [--sanitize] [--full] [--slow] [--help]
 
 Installs what is missing (apt-get; root or sudo), then configures, builds and runs the tests in
-build/tests-<compiler>: those of examples and packaging with g++, those of the headers with clang++,
-assertions and sanitizers. So each test runs once, in a quarter of an hour on two cores.
+build/tests-<compiler>: those of examples, packaging and threads with g++, those of the headers with
+clang++ and assertions. So each test runs once, in less than a quarter of an hour on two cores.
 
   --compiler NAME  g++ or clang++ only
-  --full           all tests with each compiler
+  --sanitize       with clang++, under the sanitizers of addresses and undefined behaviour
+  --full           all tests with each compiler; g++ with -O2
   --slow           also run, after the others, the tests that are hidden because they take long
   --help           print this
 TEXT
@@ -19,6 +20,7 @@ TEXT
 
 compilers="g++ clang++"
 full=no
+sanitize=no
 slow=no
 while [ $# -gt 0 ]; do
   case $1 in
@@ -29,6 +31,7 @@ while [ $# -gt 0 ]; do
       ;;
     --compiler=*) compilers=${1#--compiler=}; shift ;;
     --full) full=yes; shift ;;
+    --sanitize) sanitize=yes; shift ;;
     --slow) slow=yes; shift ;;
     -h | --help) usage; exit 0 ;;
     *) usage >&2; exit 2 ;;
@@ -67,9 +70,15 @@ run_slow_tests() {
 
 full_examples=OFF
 full_headers=OFF
+optimised="-O1 -DNDEBUG"
+asserting="-O1"
 if [ "$full" = yes ]; then
   full_examples=ON
   full_headers=ON
+  optimised="-O2 -DNDEBUG"
+fi
+if [ "$sanitize" = yes ]; then
+  asserting="-O1 -fsanitize=address,undefined -fno-sanitize-recover=all"
 fi
 jobs=$(nproc)
 for compiler in $compilers; do
@@ -77,12 +86,12 @@ for compiler in $compilers; do
   echo "== $compiler: $build"
   case $compiler in
     clang++)
-      flags="-O1 -fsanitize=address,undefined -fno-sanitize-recover=all"
+      flags=$asserting
       examples=$full_examples
       headers=ON
       ;;
     *)
-      flags="-O2 -DNDEBUG"
+      flags=$optimised
       examples=ON
       headers=$full_headers
       ;;
