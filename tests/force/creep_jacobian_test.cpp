@@ -7,24 +7,16 @@
 #include <wheelrail/core/dual.hpp>
 #include <wheelrail/force/creep_jacobian.hpp>
 
+#include "force/example_contact.hpp"
 #include "support/allocation_counter.hpp"
 #include "support/catch.hpp"
 #include "support/strict_scalar.hpp"
 
 using namespace wheelrail;
+using wheelrail_test::example;
 using wheelrail_test::StrictScalar;
 
 namespace {
-
-// 50 kN, friction 0.25, semi-axes 6 and 4.5 mm, G = 206 GPa / 2.592.
-template <class T>
-PolachContact<T> example() {
-  return {{T(6e-3), T(4.5e-3)},
-          {T(4.61805088), T(4.17424032), T(1.88638784), T(0)},
-          T(206e9) / T(2.592),
-          T(0.25),
-          T(50e3)};
-}
 
 // Rows: longitudinal and lateral force; columns: by the three creepages and the normal force.
 using Slopes = Eigen::Matrix<double, 2, 4>;

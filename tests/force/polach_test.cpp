@@ -6,25 +6,17 @@
 #include <wheelrail/core/dual.hpp>
 #include <wheelrail/force/polach.hpp>
 
+#include "force/example_contact.hpp"
 #include "support/allocation_counter.hpp"
 #include "support/catch.hpp"
 #include "support/numeric_difference.hpp"
 #include "support/strict_scalar.hpp"
 
 using namespace wheelrail;
+using wheelrail_test::example;
 using wheelrail_test::StrictScalar;
 
 namespace {
-
-// 50 kN, friction 0.25, semi-axes 6 and 4.5 mm, G = 206 GPa / 2.592.
-template <class T>
-PolachContact<T> example() {
-  return {{T(6e-3), T(4.5e-3)},
-          {T(4.61805088), T(4.17424032), T(1.88638784), T(0)},
-          T(206e9) / T(2.592),
-          T(0.25),
-          T(50e3)};
-}
 
 // Creepages [-], [-], [1/m]; the forces on the wheel of that contact [N]; those of Kalker's linear
 // theory. An independent evaluation of Polach's formulas (1999) as they stand.

@@ -97,12 +97,12 @@ class Rail {
       requires(!has_derivatives<T>) {
     return search_.curvatures(one, other);
   }
-  /// The one of them.
+  /// The least of curvatures(one, other) [1/m].
   [[nodiscard]] T least_curvature(const T& one, const T& other) const
       requires(!has_derivatives<T>) {
     return curvatures(one, other).least;
   }
-  /// The other.
+  /// The greatest of curvatures(one, other) [1/m].
   [[nodiscard]] T greatest_curvature(const T& one, const T& other) const
       requires(!has_derivatives<T>) {
     return curvatures(one, other).greatest;

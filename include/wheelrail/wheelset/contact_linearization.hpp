@@ -34,12 +34,10 @@ template <Real T>
                                                 const WheelsetPosition<T>& at,
                                                 const WheelsetMotion<T>& motion,
                                                 const ContactForceModel<T>& model) {
-  using std::sqrt;
   using Rows = Eigen::Matrix<T, 3, 6, Eigen::DontAlign>;
   WrenchJacobian<T> result;
   ContactKinematics<T> contact;
-  const T squared_speed = dot(motion.velocity_track, motion.velocity_track);
-  contact.speed = squared_speed == T(0) ? T(0) : T(sqrt(squared_speed));
+  contact.speed = motion.speed();
   for (const Side side : sides) {
     for (const PatchForce<T>& patch : forces.wheel(side).patches) {
       const Vector3<T> arm_track = patch.position_track - at.position_track;

@@ -41,6 +41,14 @@ template <Real T>
 struct WheelsetMotion {
   Vector3<T> velocity_track = Vector3<T>::Zero();          ///< of the axle's centre [m/s]
   Vector3<T> angular_velocity_track = Vector3<T>::Zero();  ///< [rad/s]; rolling forwards is +y
+
+  /// Of the axle's centre [m/s]. At rest it has no derivative and is a constant in dual numbers; the
+  /// creep forces do not depend on it there.
+  [[nodiscard]] T speed() const {
+    using std::sqrt;
+    const T squared = dot(velocity_track, velocity_track);
+    return squared == T(0) ? T(0) : T(sqrt(squared));
+  }
 };
 
 /// Two wheels, `profile_spacing` apart. Valid for good once constructed.

@@ -56,7 +56,6 @@ template <Real T>
                                         const WheelsetPosition<T>& at,
                                         const WheelsetMotion<T>& motion,
                                         const ContactForceModel<T>& model) {
-  using std::sqrt;
   const Vector3<T> position_track = frame.position_track(patch.position_rail);
   const Vector3<T> normal_track = frame.direction_track(patch.normal_rail);
   // The rail frame's x points backwards on the right.
@@ -78,9 +77,7 @@ template <Real T>
   contact.spin_velocity = dot(motion.angular_velocity_track, normal_track);
   contact.forward_speed = outboard_sign<T>(frame.side) *
                           dot(motion.velocity_track, Vector3<T>(frame.axes_track.col(0)));
-  // At rest the speed has no derivative; those of the forces do not depend on it there.
-  const T squared_speed = dot(motion.velocity_track, motion.velocity_track);
-  contact.speed = squared_speed == T(0) ? T(0) : T(sqrt(squared_speed));
+  contact.speed = motion.speed();
   ContactForce<T> force = model(contact);
   force.normal *= patch.share;
   force.creep.longitudinal *= patch.share;
