@@ -62,6 +62,25 @@ TEST_CASE("FixedList: push_back on a full list says false and changes nothing", 
   CHECK(list[1] == 2);
 }
 
+TEST_CASE("FixedList: push_back_made makes elements in their place, and none when full", "[core]") {
+  struct Fixed {  // can be neither copied nor moved
+    explicit Fixed(int value_) : value(value_) {}
+    Fixed(const Fixed&) = delete;
+    Fixed& operator=(const Fixed&) = delete;
+    int value;
+  };
+  FixedList<Fixed, 2> list;
+  int made = 0;
+  const auto make = [&made] { return Fixed(++made); };
+  CHECK(list.push_back_made(make));
+  CHECK(list.push_back_made(make));
+  CHECK_FALSE(list.push_back_made(make));
+  CHECK(made == 2);
+  CHECK(list.size() == 2);
+  CHECK(list[0].value == 1);
+  CHECK(list[1].value == 2);
+}
+
 TEST_CASE("FixedList: elements can be changed; clear makes room again", "[core]") {
   FixedList<int, 2> list;
   REQUIRE(list.push_back(1));

@@ -136,7 +136,8 @@ struct Trailer {
   std::vector<V3> positions;
 };
 
-Trailer trailer() {
+// The axleboxes' joints lie in both bodies' centres of mass, or off them.
+Trailer trailer(const V3& joint_a = V3::Zero(), const V3& joint_b = V3::Zero()) {
   Trailer t;
   const auto add = [&t](double mass, const V3& moments, const V3& position) {
     t.model.bodies.emplace_back(mass, moments);
@@ -147,9 +148,9 @@ Trailer trailer() {
   const double axles[] = {6.6, 4.5, -4.5, -6.6};
   for (const double x : axles) add(1e3, V3(600, 80, 600), V3(x, 0, 0.43));
   for (const double x : axles) add(160, V3(110, 5, 110), V3(x, 0, 0.43));
-  const V3 zero(0, 0, 0), y(0, 1, 0);
+  const V3 y(0, 1, 0);
   for (int i = 0; i < 4; ++i) {
-    t.model.joints.emplace_back(3 + i, zero, y, 7 + i, zero, y);
+    t.model.joints.emplace_back(3 + i, joint_a, y, 7 + i, joint_b, y);
     const int frame = 1 + i / 2;
     const double x = i % 2 == 0 ? 1.05 : -1.05;
     for (const double side : {0.95, -0.95}) {
@@ -376,15 +377,44 @@ TEST_CASE("MultibodySystem: a violated constraint decays as Baumgarte says",
 TEST_CASE("MultibodySystem: a trailer by its structure as by one dense system",
           "[dynamics][multibody_system][random]") {
   Random random;
-  const Trailer t = trailer();
-  const System system(t.model);
-  CHECK(system.state_size() == 11 * 13 + 8);
+  for (const V3& off_centre : {V3(0, 0, 0), V3(0.01, -0.02, 0.03)}) {
+    const Trailer t = trailer(off_centre, V3(-off_centre));
+    const System system(t.model);
+    CHECK(system.state_size() == 11 * 13 + 8);
+    CHECK(t.model.joints[0].is_centred() == (off_centre == V3::Zero()));
+    double worst = 0;
+    for (int i = 0; i < 50; ++i) {
+      const Eigen::VectorXd y = disturbed(t, random);
+      std::vector<Load> external(11);
+      for (Load& load : external) load = {V3(1e4 * random.vector()), V3(1e3 * random.vector())};
+      worst = std::fmax(worst, difference_from_dense(system, y, external));
+    }
+    CAPTURE(worst);
+    CHECK(worst < 1e-12);
+  }
+}
+
+TEST_CASE("MultibodySystem: a joint in the centres of mass as by one dense system",
+          "[dynamics][multibody_system][random]") {
+  Random random;
+  const V3 centre(0, 0, 0), axis_a(0.3, 1, -0.2), axis_b(0.1, 1, 0.4);
   double worst = 0;
-  for (int i = 0; i < 50; ++i) {
-    const Eigen::VectorXd y = disturbed(t, random);
-    std::vector<Load> external(11);
-    for (Load& load : external) load = {V3(1e4 * random.vector()), V3(1e3 * random.vector())};
-    worst = std::fmax(worst, difference_from_dense(system, y, external));
+  for (int i = 0; i < 60; ++i) {
+    // Two bodies in either order, or one on the ground, on either side.
+    Model model;
+    model.bodies = {{5.0, V3(1, 1.5, 2)}, {0.5, V3(0.3, 0.4, 0.2)}};
+    static constexpr int bodies[][2] = {{0, 1}, {1, 0}, {ground_body, 0}, {1, ground_body}};
+    const auto& [a, b] = bodies[i % 4];
+    model.joints.emplace_back(a, centre, axis_a, b, centre, axis_b);
+    REQUIRE(model.joints[0].is_centred());
+    const System system(model);
+    std::vector<State> states;
+    for (int k = 0; k < 2; ++k) {
+      states.push_back({random.vector(), random.orientation(), random.vector(), random.vector()});
+    }
+    const std::vector<Load> external{{random.vector(), random.vector()},
+                                     {random.vector(), random.vector()}};
+    worst = std::fmax(worst, difference_from_dense(system, packed(states), external));
   }
   CAPTURE(worst);
   CHECK(worst < 1e-12);

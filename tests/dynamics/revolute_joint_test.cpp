@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <wheelrail/core/dual.hpp>
 #include <wheelrail/dynamics/revolute_joint.hpp>
 #include <wheelrail/dynamics/rigid_body_vector.hpp>
 
@@ -98,6 +99,20 @@ TEST_CASE("RevoluteJoint: nothing but rotation about the axis keeps the constrai
     CHECK(joint.equations(body_motion(a), body_motion(b)).residual.tail<2>().norm() ==
           Approx(std::sin(0.01)));
   }
+}
+
+TEST_CASE("RevoluteJoint: a joint in both centres of mass is centred, but in dual numbers",
+          "[dynamics][revolute_joint][autodiff]") {
+  const auto is_centred = []<class R>(R, double height_a, double height_b) {
+    const Vector3<R> y = Vector3<R>::UnitY();
+    return RevoluteJoint<R>(0, Vector3<R>(R(0), R(0), R(height_a)), y, 1,
+                            Vector3<R>(R(0), R(0), R(height_b)), y)
+        .is_centred();
+  };
+  CHECK(is_centred(T(0), 0, 0));
+  CHECK_FALSE(is_centred(T(0), 1e-300, 0));
+  CHECK_FALSE(is_centred(T(0), 0, -1e-300));
+  CHECK_FALSE(is_centred(Dual<double, 1>(0), 0, 0));  // a point at zero may have derivatives
 }
 
 TEST_CASE("RevoluteJoint: what is no joint is refused by name",

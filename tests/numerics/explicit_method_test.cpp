@@ -34,9 +34,9 @@ Complex stepped(ExplicitMethod method, const Complex& z) {
   const State start(1, 0);
   k[0] = rate(start);
   for (std::size_t i = 1; i < 6; ++i) {
-    k[i] = rate(start + detail::dormand_prince_slope<State>(k, i));
+    k[i] = rate(detail::dormand_prince_point<State>(start, 1.0, k, i));
   }
-  const State end = start + detail::dormand_prince_slope<State>(k, 6);
+  const State end = detail::dormand_prince_point<State>(start, 1.0, k, 6);
   return {end(0), end(1)};
 }
 

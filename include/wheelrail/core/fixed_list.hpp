@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <type_traits>
 #include <utility>
 #include <wheelrail/core/assert.hpp>
@@ -43,6 +44,16 @@ class FixedList {
   [[nodiscard]] constexpr bool push_back(const Element& element) {
     if (full()) return false;
     construct_back(element);
+    return true;
+  }
+
+  /// Appends what @p make() returns, made in its place and not copied.
+  /// @return false, and nothing is made, when the list is full.
+  template <class Make>
+  [[nodiscard]] bool push_back_made(const Make& make) {
+    if (full()) return false;
+    ::new (static_cast<void*>(elements_ + size_)) Element(make());
+    ++size_;
     return true;
   }
 

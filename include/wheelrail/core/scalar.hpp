@@ -73,6 +73,9 @@ template <Real T>
 
 template <Real T>
 [[nodiscard]] constexpr T magnitude(const T& x) {
+  if constexpr (std::is_floating_point_v<T>) {  // one instruction, for minus zero too
+    if (!std::is_constant_evaluated()) return std::fabs(x);
+  }
   return x < T(0) ? T(-x) : x;
 }
 

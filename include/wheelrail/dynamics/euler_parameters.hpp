@@ -25,7 +25,7 @@ template <Real T>
 /// @param p Euler parameters of the body in the world, of any length but zero.
 /// @return orthonormal to a few rounding units, whatever |p|.
 template <Real T>
-[[nodiscard]] Matrix3<T> rotation_matrix(const Vector4<T>& p) {
+[[nodiscard]] inline Matrix3<T> rotation_matrix(const Vector4<T>& p) {
   const T s = T(2) / p.squaredNorm();
   const T e0 = p(0), e1 = p(1), e2 = p(2), e3 = p(3);
   Matrix3<T> a;

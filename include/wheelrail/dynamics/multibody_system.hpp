@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 #include <wheelrail/dynamics/detail/body_array.hpp>
+#include <wheelrail/dynamics/detail/centred_joint.hpp>
 #include <wheelrail/dynamics/detail/joint_group.hpp>
 #include <wheelrail/dynamics/multibody_model.hpp>
 #include <wheelrail/dynamics/rigid_body_vector.hpp>
@@ -41,13 +42,16 @@ class MultibodySystem {
       : model_(detail::require_valid(std::move(model), MaximumBodies)),
         groups_(detail::joint_groups<MaximumJoints>(
             std::span<const RevoluteJoint<T>>(model_.joints), model_.bodies.size())),
+        inverse_masses_(
+            Vector6<T>::Zero(), count(),
+            [this](int i) { return Vector6<T>(mass_diagonal(body(i)).cwiseInverse()); }),
         state_size_(RigidBodyLayout::offset(static_cast<Eigen::Index>(model_.bodies.size()))) {
-    for (int i = 0; i < count(); ++i) inverse_masses_[i] = mass_diagonal(body(i)).cwiseInverse();
+    series_offsets_.push_back(state_size_);
     for (const SpringDamper<T>& element : model_.spring_dampers) {
-      series_offsets_.push_back(state_size_);
       for (Eigen::Index i = 0; i < 3; ++i) {
         if (T(0) < element.series_stiffness_a(i)) ++state_size_;
       }
+      series_offsets_.push_back(state_size_);
     }
   }
 
@@ -68,10 +72,16 @@ class MultibodySystem {
         y, motions, external_wrenches,
         [&result](Eigen::Index row, const T& elongation_rate) { result(row) = elongation_rate; });
     add_reactions(motions, forces);
-    for (int i = 0; i < count(); ++i) {
-      const Vector6<T> acceleration = forces[i].cwiseProduct(inverse_masses_[i]);
-      result.template segment<RigidBodyLayout::size>(RigidBodyLayout::offset(i)) =
-          pack(derivative(unpack_rigid_body(y, i), acceleration));
+    using Layout = RigidBodyLayout;
+    for (int i = 0; i < count(); ++i) {  // as `derivative`, but in place
+      const Eigen::Index row = Layout::offset(i);
+      result.template segment<3>(row + Layout::position_world) =
+          y.template segment<3>(row + Layout::velocity_world);
+      result.template segment<4>(row + Layout::orientation) =
+          euler_parameter_rate<T>(y.template segment<4>(row + Layout::orientation),
+                                  y.template segment<3>(row + Layout::angular_velocity_body));
+      result.template segment<6>(row + Layout::velocity_world) =
+          forces[i].cwiseProduct(inverse_masses_[i]);
     }
     return result;
   }
@@ -162,9 +172,8 @@ class MultibodySystem {
   template <class State>
   [[nodiscard]] Motions motions_of(const State& y) const {
     WHEELRAIL_ASSERT(y.size() == state_size_);
-    Motions motions;
-    for (int i = 0; i < count(); ++i) motions[i] = body_motion(unpack_rigid_body(y, i));
-    return motions;
+    return Motions(BodyMotion<T>{}, count(),
+                   [&y](int i) { return body_motion(unpack_rigid_body(y, i)); });
   }
 
   [[nodiscard]] auto multipliers(const GroupEquations& equations, const Forces& forces) const {
@@ -175,6 +184,17 @@ class MultibodySystem {
   /// Adds to @p forces what the joints do to each body.
   void add_reactions(const Motions& motions, Forces& forces) const {
     for (const Group& group : groups_) {
+      const RevoluteJoint<T>& first = model_.joints[group[0]];
+      if (group.size() == 1 && first.is_centred()) {
+        const auto [a, b] = first.bodies();
+        const auto reactions =
+            detail::centred_reactions<T>(first, {motions[a], inverse_masses_[a], forces[a]},
+                                         {motions[b], inverse_masses_[b], forces[b]},
+                                         model_.baumgarte_alpha, model_.baumgarte_beta);
+        forces[a] += reactions[0];
+        forces[b] += reactions[1];
+        continue;
+      }
       const GroupEquations equations(model_.joints, {group.begin(), group.size()}, motions);
       const auto lambda = multipliers(equations, forces);
       for (std::size_t i = 0; i < equations.size(); ++i) {
@@ -186,12 +206,18 @@ class MultibodySystem {
     }
   }
 
+  /// Whether an element has series springs.
+  [[nodiscard]] bool has_series(std::size_t element) const {
+    return series_offsets_[element] < series_offsets_[element + 1];
+  }
+
   /// The elongations of an element's series springs, in its a's axes; zero without [m].
   template <class State>
   [[nodiscard]] Vector3<T> elongation_a(const State& y, std::size_t element) const {
+    Vector3<T> elongation_a = Vector3<T>::Zero();
+    if (!has_series(element)) return elongation_a;
     const Vector3<T>& stiffness_a = model_.spring_dampers[element].series_stiffness_a;
     Eigen::Index row = series_offsets_[element];
-    Vector3<T> elongation_a = Vector3<T>::Zero();
     for (Eigen::Index i = 0; i < 3; ++i) {
       if (T(0) < stiffness_a(i)) elongation_a(i) = y(row++);
     }
@@ -219,11 +245,11 @@ class MultibodySystem {
                                       std::span<const Wrench<T>> external_wrenches,
                                       const TakeRate& take_rate) const {
     WHEELRAIL_ASSERT(external_wrenches.size() == body_count());
-    detail::BodyArray<Wrench<T>, MaximumBodies> wrenches;
-    for (int i = 0; i < count(); ++i) {
-      wrenches[i] = external_wrenches[static_cast<std::size_t>(i)];
-      wrenches[i].force_world += body(i).mass() * model_.gravity_world;
-    }
+    detail::BodyArray<Wrench<T>, MaximumBodies> wrenches(Wrench<T>{}, count(), [&](int i) {
+      const Wrench<T>& external = external_wrenches[static_cast<std::size_t>(i)];
+      return Wrench<T>{external.force_world + body(i).mass() * model_.gravity_world,
+                       external.moment_world};
+    });
     for (std::size_t i = 0; i < model_.spring_dampers.size(); ++i) {
       const SpringDamper<T>& e = model_.spring_dampers[i];
       const BodyMotion<T>& a = motions[e.a];
@@ -236,6 +262,7 @@ class MultibodySystem {
       wrenches[e.a].moment_world -= cross(arm_a_world, force_world);
       wrenches[e.b].force_world += force_world;
       wrenches[e.b].moment_world += cross(arm_b_world, force_world);
+      if (!has_series(i)) continue;
       Eigen::Index row = series_offsets_[i];
       for (Eigen::Index k = 0; k < 3; ++k) {
         if (T(0) < e.series_stiffness_a(k)) take_rate(row++, act.elongation_rate_a(k));
@@ -246,19 +273,17 @@ class MultibodySystem {
       wrenches[e.a].moment_world -= moment_world;
       wrenches[e.b].moment_world += moment_world;
     }
-    Forces forces;
-    for (int i = 0; i < count(); ++i) {
+    return Forces(Vector6<T>::Zero(), count(), [&](int i) {
       const Vector3<T> spin_body = y.template segment<3>(RigidBodyLayout::offset(i) +
                                                          RigidBodyLayout::angular_velocity_body);
-      forces[i] = generalized_force(body(i), motions[i].body_to_world, spin_body, wrenches[i]);
-    }
-    return forces;
+      return generalized_force(body(i), motions[i].body_to_world, spin_body, wrenches[i]);
+    });
   }
 
   MultibodyModel<T> model_;
   std::vector<Group> groups_;
-  Forces inverse_masses_{Vector6<T>::Zero()};  ///< the diagonal of M^-1
-  std::vector<Eigen::Index> series_offsets_;
+  Forces inverse_masses_;                     ///< the diagonal of M^-1; zero for the ground
+  std::vector<Eigen::Index> series_offsets_;  ///< of each element's, and where the last end
   Eigen::Index state_size_;
 };
 

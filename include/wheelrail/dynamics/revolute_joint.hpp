@@ -4,6 +4,7 @@
 /// them. May include: core, dynamics, Eigen, std.
 
 #include <array>
+#include <wheelrail/core/scalar_value.hpp>
 #include <wheelrail/dynamics/body_motion.hpp>
 
 namespace wheelrail {
@@ -25,6 +26,18 @@ struct JointEquations {
   /// of I and of -I.
   std::array<Jacobian, 2> jacobians;
   Vector5<T> gamma;  ///< the terms quadratic in velocities [m/s2, 1/s2]
+};
+
+/// The last two rows of JointEquations, those of the axis.
+template <Real T>
+struct JointAxisEquations {
+  using Gradients = Eigen::Matrix<T, 3, 2, Eigen::DontAlign>;  ///< of one body
+
+  Vector2<T> residual;       ///< Phi [-]
+  Vector2<T> residual_rate;  ///< dPhi/dt [1/s]
+  /// Of a and of b: column i is row 3 + i of Phi_q for the rotation; the translation's are zero.
+  std::array<Gradients, 2> gradients;
+  Vector2<T> gamma;  ///< the terms quadratic in velocities [1/s2]
 };
 
 /// The point and the axis of a stay on those of b: Nikravesh (1988), 7.2.2. Rotation about the axis
@@ -53,10 +66,16 @@ class RevoluteJoint {
     }
     perpendiculars_b_[0] = unit("axis_b", cross(axis_b_, Vector3<T>(Vector3<T>::Unit(least))));
     perpendiculars_b_[1] = cross(axis_b_, perpendiculars_b_[0]);
+    if constexpr (!has_derivatives<T>) {
+      is_centred_ = point_a == Vector3<T>::Zero() && point_b == Vector3<T>::Zero();
+    }
   }
 
   /// The indices of a and b.
   [[nodiscard]] const std::array<int, 2>& bodies() const { return bodies_; }
+  /// Whether the point is the centre of mass of both bodies (the origin of the ground): then its
+  /// rows do not turn them. Never in dual numbers: a point may be zero and have derivatives.
+  [[nodiscard]] bool is_centred() const { return is_centred_; }
   /// The axis, of unit length, in a's axes [-].
   [[nodiscard]] const Vector3<T>& axis_a() const { return axis_a_; }
 
@@ -87,22 +106,39 @@ class RevoluteJoint {
       e.jacobians[1].row(i).template tail<3>() = cross(row_b, point_b_).transpose();
     }
 
+    const JointAxisEquations<T> axis = axis_equations(a, b);
+    e.residual.template tail<2>() = axis.residual;
+    e.residual_rate.template tail<2>() = axis.residual_rate;
+    e.gamma.template tail<2>() = axis.gamma;
+    for (std::size_t side = 0; side < 2; ++side) {
+      e.jacobians[side].template bottomRightCorner<2, 3>() = axis.gradients[side].transpose();
+    }
+    return e;
+  }
+
+  /// Those of the axis alone.
+  /// @param a, b as in `equations`.
+  [[nodiscard]] JointAxisEquations<T> axis_equations(const BodyMotion<T>& a,
+                                                     const BodyMotion<T>& b) const {
     // The axis of a, h, and its rates as an observer on b sees them, but for angular accelerations.
+    const Vector3<T>& wa = a.angular_velocity_world;
+    const Vector3<T>& wb = b.angular_velocity_world;
     const Vector3<T> h = a.body_to_world * axis_a_;  // in the world, as all without suffix
     const Vector3<T> spin = wa - wb;
     const Vector3<T> h_rate = cross(spin, h);
     const Vector3<T> h_rate2 = cross(spin, cross(wa, h)) - cross(wb, h_rate);
     const Vector3<T> h_b = b.body_to_world.transpose() * h;
+    JointAxisEquations<T> e;
     for (Eigen::Index i = 0; i < 2; ++i) {
       const Vector3<T>& u_b = perpendiculars_b_[static_cast<std::size_t>(i)];
       const Vector3<T> u = b.body_to_world * u_b;
       const Vector3<T> u_a = a.body_to_world.transpose() * u;
-      e.residual(3 + i) = dot(h, u);
-      e.residual_rate(3 + i) = dot(h_rate, u);
-      e.gamma(3 + i) = -dot(h_rate2, u);
+      e.residual(i) = dot(h, u);
+      e.residual_rate(i) = dot(h_rate, u);
+      e.gamma(i) = -dot(h_rate2, u);
       // The same product of h and u, in the axes of either body.
-      e.jacobians[0].row(3 + i).template tail<3>() = cross(axis_a_, u_a).transpose();
-      e.jacobians[1].row(3 + i).template tail<3>() = cross(u_b, h_b).transpose();
+      e.gradients[0].col(i) = cross(axis_a_, u_a);
+      e.gradients[1].col(i) = cross(u_b, h_b);
     }
     return e;
   }
@@ -120,6 +156,7 @@ class RevoluteJoint {
   Vector3<T> point_a_, point_b_;
   Vector3<T> axis_a_, axis_b_;
   std::array<Vector3<T>, 2> perpendiculars_b_;
+  bool is_centred_ = false;
 };
 
 }  // namespace wheelrail

@@ -53,9 +53,9 @@ struct SpringDamperMotion {
 
 /// @param a, b the motions of the two bodies; BodyMotion{} for the ground.
 template <Real T>
-[[nodiscard]] SpringDamperMotion<T> relative_motion(const SpringDamper<T>& element,
-                                                    const BodyMotion<T>& a,
-                                                    const BodyMotion<T>& b) {
+[[nodiscard]] inline SpringDamperMotion<T> relative_motion(const SpringDamper<T>& element,
+                                                           const BodyMotion<T>& a,
+                                                           const BodyMotion<T>& b) {
   const Vector3<T> arm_b_world = b.body_to_world * element.point_b;
   const Vector3<T> point_world = b.position_world + arm_b_world;
   const Vector3<T> arm_a_world = point_world - a.position_world;
@@ -69,19 +69,20 @@ template <Real T>
 /// @param elongation_a of the series springs, in a's axes [m]; not used without.
 /// @param a, b the motions of the two bodies; BodyMotion{} for the ground.
 template <Real T>
-[[nodiscard]] SpringDamperAction<T> action(const SpringDamper<T>& element, const BodyMotion<T>& a,
-                                           const BodyMotion<T>& b, const Vector3<T>& elongation_a) {
+[[nodiscard]] inline SpringDamperAction<T> action(const SpringDamper<T>& element,
+                                                  const BodyMotion<T>& a, const BodyMotion<T>& b,
+                                                  const Vector3<T>& elongation_a) {
   const SpringDamperMotion<T> motion = relative_motion(element, a, b);
   Vector3<T> force_a, elongation_rate_a = Vector3<T>::Zero();
   for (Eigen::Index i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
     const T& velocity = motion.velocity_a(i);
     T damping;
-    if (element.series_stiffness_a(i) == T(0)) {
-      damping = element.damper[axis].force(velocity);
-    } else {
+    if (T(0) < element.series_stiffness_a(i)) {
       damping = element.series_stiffness_a(i) * elongation_a(i);
       elongation_rate_a(i) = velocity - element.damper[axis].argument(damping);
+    } else {
+      damping = element.damper[axis].force(velocity);
     }
     force_a(i) =
         element.preload_a(i) - element.spring[axis].force(motion.displacement_a(i)) - damping;

@@ -135,11 +135,17 @@ class KalkerTable {
                  : beyond(last, detail::kalker_long_asymptotes(poisson_ratio_, g), long_blends_, t);
     }
     T u = is_short ? T(t - T(1)) : T(T(19) - t);
-    std::size_t i = 0;  // the whole part of u, but within the table: halving, for any scalar
-    for (int stride = 16; 0 < stride; stride /= 2) {
-      if (i + static_cast<std::size_t>(stride) < last && T(stride) <= u) {
-        i += static_cast<std::size_t>(stride);
-        u = u - T(stride);
+    std::size_t i = 0;  // the whole part of u, but within the table
+    if constexpr (std::is_floating_point_v<T>) {
+      const int whole = static_cast<int>(detail::min(u, T(static_cast<int>(last) - 1)));
+      i = static_cast<std::size_t>(whole);
+      u = u - T(whole);
+    } else {  // by halving
+      for (int stride = 16; 0 < stride; stride /= 2) {
+        if (i + static_cast<std::size_t>(stride) < last && T(stride) <= u) {
+          i += static_cast<std::size_t>(stride);
+          u = u - T(stride);
+        }
       }
     }
     const std::array<T, 4> powers = detail::kalker_powers(is_short ? g : T(T(2) - g));

@@ -3,6 +3,7 @@
 /// The interpolating cubic spline through values at given nodes, with continuous second derivative:
 /// C. de Boor, A Practical Guide to Splines, chapter IV. May include: core, numerics, std.
 
+#include <cstddef>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -225,8 +226,14 @@ class CubicSpline {
     if constexpr (std::is_floating_point_v<T>) {
       if (is_uniform_) {
         const T position = (x - lower()) * inverse_spacing_;
+        // Through signed numbers, which processors convert in one instruction.
+        using Signed = std::ptrdiff_t;
         std::size_t i = 0;
-        if (T(0) < position) i = position < T(last) ? static_cast<std::size_t>(position) : last;
+        if (T(0) < position) {
+          i = position < T(static_cast<Signed>(last))
+                  ? static_cast<std::size_t>(static_cast<Signed>(position))
+                  : last;
+        }
         // One off at most, by rounding of the nodes.
         if (i > 0 && x < nodes_[i]) --i;
         if (i < last && nodes_[i + 1] <= x) ++i;

@@ -106,9 +106,8 @@ class DormandPrince {
   [[nodiscard]] int evaluations() const { return evaluations_; }        ///< see steps()
 
  private:
-  static bool all_finite(const State& y) {
-    return (y - y).sum() == T(0);  // as is_finite, without a branch for each component
-  }
+  /// The sum tells, without a branch for each component, unless finite ones overflow in it.
+  static bool all_finite(const State& y) { return is_finite(T(y.sum())) || (y - y).sum() == T(0); }
 
   /// The greatest |v_i| over the tolerance of a step from @p a to @p b.
   T norm(const State& v, const State& a, const State& b) const {
@@ -167,7 +166,7 @@ class DormandPrince {
   template <class Function>
   std::optional<T> attempt(Function& f, const T& h, const T& time_new) {
     for (std::size_t i = 1; i < stages_.size(); ++i) {
-      trial_ = state_ + h * detail::dormand_prince_slope(stages_, i);
+      trial_ = detail::dormand_prince_point(state_, h, stages_, i);
       const T t = i < 5 ? T(time_ + detail::dormand_prince_node<T>(i) * h) : time_new;
       if (!evaluate(f, i, t, trial_)) return std::nullopt;
     }

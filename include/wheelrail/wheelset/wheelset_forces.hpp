@@ -112,12 +112,14 @@ template <Profile P, class Track, class Search>
   wheel.arc_length = frame.arc_length;
   wheel.evaluations = found.evaluations;
   for (const Patch<T>& patch : found.patches) {
-    const PatchForce<T> force = patch_force(patch, frame, at, motion, model);
+    // As many as the search can return.
+    static_cast<void>(
+        wheel.patches.push_back_made([&] { return patch_force(patch, frame, at, motion, model); }));
+  }
+  for (const PatchForce<T>& force : wheel.patches) {
     wheel.force_track += force.force_track;
     wheel.moment_track +=
         cross(Vector3<T>(force.position_track - at.position_track), force.force_track);
-    // As many as the search can return.
-    static_cast<void>(wheel.patches.push_back(force));
   }
   return wheel;
 }

@@ -29,27 +29,28 @@ template <Real T>
   return nodes[index];
 }
 
-/// The mean derivative that leads to stage @p index (1 to 6) from the stages before; for stage 6
-/// that is the one of the step itself, of order 5.
+/// Where stage @p index (1 to 6) of a step @p h from @p y is evaluated, by the stages before; for
+/// stage 6 that is the end of the step itself, of order 5.
 template <class State>
-[[nodiscard]] State dormand_prince_slope(const DormandPrinceStages<State>& k, std::size_t index) {
+[[nodiscard]] State dormand_prince_point(const State& y, const typename State::Scalar& h,
+                                         const DormandPrinceStages<State>& k, std::size_t index) {
   constexpr auto c = ratio_of<typename State::Scalar>;
   switch (index) {
     case 1:
-      return c(1, 5) * k[0];
+      return y + h * (c(1, 5) * k[0]);
     case 2:
-      return c(3, 40) * k[0] + c(9, 40) * k[1];
+      return y + h * (c(3, 40) * k[0] + c(9, 40) * k[1]);
     case 3:
-      return c(44, 45) * k[0] + c(-56, 15) * k[1] + c(32, 9) * k[2];
+      return y + h * (c(44, 45) * k[0] + c(-56, 15) * k[1] + c(32, 9) * k[2]);
     case 4:
-      return c(19372, 6561) * k[0] + c(-25360, 2187) * k[1] + c(64448, 6561) * k[2] +
-             c(-212, 729) * k[3];
+      return y + h * (c(19372, 6561) * k[0] + c(-25360, 2187) * k[1] + c(64448, 6561) * k[2] +
+                      c(-212, 729) * k[3]);
     case 5:
-      return c(9017, 3168) * k[0] + c(-355, 33) * k[1] + c(46732, 5247) * k[2] + c(49, 176) * k[3] +
-             c(-5103, 18656) * k[4];
+      return y + h * (c(9017, 3168) * k[0] + c(-355, 33) * k[1] + c(46732, 5247) * k[2] +
+                      c(49, 176) * k[3] + c(-5103, 18656) * k[4]);
     default:
-      return c(35, 384) * k[0] + c(500, 1113) * k[2] + c(125, 192) * k[3] + c(-2187, 6784) * k[4] +
-             c(11, 84) * k[5];
+      return y + h * (c(35, 384) * k[0] + c(500, 1113) * k[2] + c(125, 192) * k[3] +
+                      c(-2187, 6784) * k[4] + c(11, 84) * k[5]);
   }
 }
 
