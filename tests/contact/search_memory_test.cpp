@@ -97,10 +97,30 @@ TEST_CASE("SearchMemory: allows for less motion where the wheel moves less", "[c
     lateral += step;
     const auto here = placed(lateral, 0.43, 0, 0);
     if (!memory.covers(rail, here, 0)) memory.restart(rail, here, 0);
-    memory.begin_search();
+    memory.begin_search(here);
   };
   for (int i = 0; i < 12000; ++i) search(3e-8);
   CHECK(memory.motion().distance == 1e-4 / 32);
   for (int i = 0; i < 100; ++i) search(2e-5);
   CHECK(memory.motion().distance == 1e-4);
+}
+
+TEST_CASE("SearchMemory: an extremum is expected where it moves on to", "[contact]") {
+  const Wheel wheel(s1002<double>(), 0.43);
+  SearchMemory<double> memory(wheel, 1e-4);
+  detail::RememberedPart<double> part;
+  part.extremum = 0.01;
+  memory.begin_search(placed(0, 0.43, 0, 0));
+  CHECK(memory.extremum_near(part) == 0.01);
+  memory.begin_search(placed(2e-5, 0.43, 0, 0));
+  CHECK(memory.extremum_near(part) == 0.01);
+  memory.found_extremum(part, 0.01 - 6e-5);
+  memory.begin_search(placed(3e-5, 0.43, 0, 0));
+  CHECK(memory.extremum_near(part) == Approx(0.01 - 9e-5).epsilon(1e-12));
+  memory.found_extremum(part, 0.01 - 8e-5);  // of where it is found, nothing is believed
+  memory.begin_search(placed(3e-5, 0.42, 0, 0));
+  CHECK(memory.extremum_near(part) == Approx(0.01 - 8e-5).epsilon(1e-12));
+  memory.found_extremum(part, 0.02);  // no motion to the side: no rate
+  memory.begin_search(placed(4e-5, 0.42, 0, 0));
+  CHECK(memory.extremum_near(part) == Approx(0.02 - 2e-5).epsilon(1e-12));
 }

@@ -7,6 +7,7 @@
 ///
 /// What is proved (ContactResult::is_proved), and from what, stands in detail/penetration_bounds.hpp.
 
+#include <wheelrail/contact/detail/first_guesses.hpp>
 #include <wheelrail/contact/detail/lifted_patch.hpp>
 #include <wheelrail/contact/detail/locus_strips.hpp>
 #include <wheelrail/contact/detail/near_runs.hpp>
@@ -71,8 +72,7 @@ class StripWalk {
         near_(wheel, rail, placement, T(options.penetration_threshold - margin_)),
         bounds_(rail, wheel.strips().greatest_radius(), placement,
                 T(options.penetration_threshold - margin_)) {
-    using std::sqrt;
-    grid_ = sqrt(epsilon<T>()) * wheel.nominal_radius();
+    grid_ = newton_grid(wheel);
     is_blending_ = T(0) < options.blending_length;
     resolution_ = blending_resolution(wheel, options);
   }
@@ -89,7 +89,7 @@ class StripWalk {
         memory_->restart(rail_, placement_, threshold);
         remember_parts();
       }
-      memory_->begin_search();
+      memory_->begin_search(placement_);
       for (auto& part : memory_->parts()) visit_remembered(part);
     }
     leave_zone();
@@ -227,7 +227,8 @@ class StripWalk {
         part.joins == Joins::same && (!left.is_exact || (last_.is_exact && is_same(last_, left)));
     if (!is_visited) visit(left);
     if (part.is_simple) {
-      visit_extremum(left, right, part.extremum);
+      T extremum = memory_->extremum_near(part);
+      if (visit_extremum(left, right, extremum)) memory_->found_extremum(part, extremum);
     } else {
       if (!is_above(part.left_index, left, right, T(0))) visit_part(left, right, 0);
     }
@@ -359,13 +360,13 @@ class StripWalk {
   // Solves for the extremum of the penetration between two strips of one piece, if there is one
   // that can matter: a maximum that may reach the threshold, or a minimum between two that do.
   // `position` is where it is looked for first, and where it was found.
-  void visit_extremum(const Strip& left, const Strip& right, T& position) {
-    if (!left.exists || !right.exists || left.slope == T(0) || right.slope == T(0)) return;
+  bool visit_extremum(const Strip& left, const Strip& right, T& position) {
+    if (!left.exists || !right.exists || left.slope == T(0) || right.slope == T(0)) return false;
     const bool is_maximum = T(0) < left.slope && right.slope < T(0);
     const bool is_minimum = left.slope < T(0) && T(0) < right.slope;
-    if (!is_maximum && !is_minimum) return;
+    if (!is_maximum && !is_minimum) return false;
     // The left one was visited.
-    if (is_minimum && (!zone_is_open_ || (has_side(right) && !penetrates(right)))) return;
+    if (is_minimum && (!zone_is_open_ || (has_side(right) && !penetrates(right)))) return false;
     bool lost = false;
     Strip at;
     const auto root = bracketed_newton<T>(
@@ -379,11 +380,12 @@ class StripWalk {
         {.residual_tolerance = T(4) * epsilon<T>(), .grid = grid_});
     if (root.status != SolveStatus::converged || lost) {
       result_.status = SearchStatus::not_converged;
-      return;
+      return false;
     }
     // The last step changes an extremum by its square: rounding.
     at.wheel_lateral = position = root.position;
     visit(at);
+    return true;
   }
   void visit_extremum(const Strip& left, const Strip& right, T&& position) {
     visit_extremum(left, right, position);

@@ -28,7 +28,8 @@ struct RememberedPart {
   int left_index = -1, right_index = -1;  // among the wheel's strips, if they are
   // The penetration has one extremum at most; otherwise nothing is known.
   bool is_simple = false;
-  T extremum = T(0);  // where it was last
+  T extremum = T(0);       // where it was last [m]
+  T extremum_rate = T(0);  // by which it moves as the wheel moves to the side
   // What lies to the left: nothing near the rail, another piece, or a part with the same strip.
   enum class Joins { apart, joint, same } joins = Joins::apart;
 };
@@ -104,10 +105,22 @@ class SearchMemory {
   }
 
   /// The zones' ends that were found are those of the search before now.
-  void begin_search() {
+  void begin_search(const WheelPlacement<T>& placement) {
     ++searches_;
+    shift_ = placement.position_rail.y() - last_lateral_;
+    last_lateral_ = placement.position_rail.y();
     last_zone_ends_ = zone_ends_;
     zone_ends_.clear();
+  }
+  /// Where a part's extremum may be now: moved on as it did between the two searches before.
+  [[nodiscard]] T extremum_near(const detail::RememberedPart<T>& part) const {
+    return part.extremum + part.extremum_rate * shift_;
+  }
+  /// Where it is.
+  void found_extremum(detail::RememberedPart<T>& part, const T& lateral) const {
+    if (motion_.distance / T(1000) < detail::magnitude(shift_))
+      part.extremum_rate = (lateral - part.extremum) / shift_;
+    part.extremum = lateral;
   }
   /// @param inside a strip of the zone. @param depth of it beyond the threshold [m].
   void add_zone_end(const T& lateral, const T& inside, const T& depth) {
@@ -147,6 +160,8 @@ class SearchMemory {
   T checksum_ = T(0);
   T threshold_ = T(0);
   T lateral_ = T(0), up_ = T(0);
+  T last_lateral_ = T(0),
+    shift_ = T(0);  // of the wheel's position, and since the search before [m]
   Vector3<T> axle_rail_ = Vector3<T>::UnitY();
 };
 

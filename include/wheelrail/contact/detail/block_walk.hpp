@@ -28,8 +28,7 @@ class BlockWalk {
         placements_(placements),
         options_(options),
         margin_(T(64) * epsilon<T>() * wheel.nominal_radius()) {
-    using std::sqrt;
-    grid_ = sqrt(epsilon<T>()) * wheel.nominal_radius();
+    grid_ = newton_grid(wheel);
     items_.reserve(greatest_size);
     bounds_.reserve(greatest_size);
     strips_.reserve(16 * greatest_size);

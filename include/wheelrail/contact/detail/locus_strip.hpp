@@ -28,8 +28,7 @@ struct LocusStrip {
   [[nodiscard]] const T& greatest_slope() const { return slope; }
   [[nodiscard]] const T& least_foot() const { return rail_lateral; }
   [[nodiscard]] const T& greatest_foot() const { return rail_lateral; }
-  [[nodiscard]] const Vector2<T>& normal_at_least_foot() const { return normal_rail; }
-  [[nodiscard]] const Vector2<T>& normal_at_greatest_foot() const { return normal_rail; }
+  static constexpr bool moves = false;
 };
 
 // What a strip keeps within while the wheel moves.
@@ -39,7 +38,8 @@ struct MovingStrip {
   T penetration = T(0), penetration_change = T(0);  // [m]
   T slope = T(0), slope_change = T(0);              // [-]
   T foot = T(0), foot_change = T(0);                // [m]
-  Vector2<T> normal_lower, normal_upper;            // of the rail at both ends of the foot's range
+  Vector2<T> normal_rail{T(0), T(0)};               // at the foot
+  T normal_change = T(0);                           // of it, by its length
   bool exists = false;  // in all of its range, and nothing of it is unbounded
 
   [[nodiscard]] T least_penetration() const { return penetration - penetration_change; }
@@ -48,8 +48,7 @@ struct MovingStrip {
   [[nodiscard]] T greatest_slope() const { return slope + slope_change; }
   [[nodiscard]] T least_foot() const { return foot - foot_change; }
   [[nodiscard]] T greatest_foot() const { return foot + foot_change; }
-  [[nodiscard]] const Vector2<T>& normal_at_least_foot() const { return normal_lower; }
-  [[nodiscard]] const Vector2<T>& normal_at_greatest_foot() const { return normal_upper; }
+  static constexpr bool moves = true;
 };
 
 }  // namespace wheelrail::detail

@@ -9,9 +9,10 @@ namespace wheelrail::detail {
 
 // Nodes over more strips than this mostly have parts that no line is below: they are not tested.
 inline constexpr int widest_above_line = 32;
-// A node over so few is not divided further where the yaw is small: what lies in it costs less than
-// its parts' tests. Where the yaw is greater, its bounds are so loose that finer runs pay.
-inline constexpr int finest_node = 4;
+// A node over so few is not divided further where the yaw is small, but what lies above the last
+// line is left off its ends: that costs less than its parts' tests. Where the yaw is greater, its
+// bounds are so loose that finer runs pay.
+inline constexpr int finest_node = 8;
 template <Real T>
 inline constexpr T small_squared_tan_yaw = constant<T>(1e-4L);
 
@@ -61,13 +62,14 @@ class NearRuns {
         if (!is_above && count <= finest && node->is_in_one_piece) break;
         node = is_above ? begin + node->skip : node + 1;
       }
-      if (first != last && (node == end || node->first != last)) {
+      const Interval next = node == end ? Interval{} : part_below(line, *node, limit);
+      if (first != last && (node == end || next.first != last)) {
         visit(first, last);
         first = last;
       }
       if (node == end) return;
-      if (first == last) first = node->first;
-      last = node->last;
+      if (first == last) first = next.first;
+      last = next.last;
     }
   }
 
@@ -88,12 +90,42 @@ class NearRuns {
     T across_axle = T(0);            // sqrt(1 - (n.a)^2)
     T height = T(1) / epsilon<T>();  // n.(P - o) [m]; at first above everything
 
+    // Of the bound of g over a node, which is linear: where the node's centre is, and its slope.
+    [[nodiscard, gnu::always_inline]] inline T depth_at_centre(const StripNode<T>& node) const {
+      return height - node.centre * along_axle + node.greatest_radius * across_axle;
+    }
+    [[nodiscard, gnu::always_inline]] inline T lean(const StripNode<T>& node) const {
+      return node.slope * across_axle - along_axle;
+    }
     [[nodiscard, gnu::always_inline]] inline T greatest_depth(const StripNode<T>& node) const {
-      const T lean = node.slope * across_axle - along_axle;
-      return height - node.centre * along_axle + node.greatest_radius * across_axle +
-             max(lean, T(-lean)) * node.half_width;
+      const T slope = lean(node);
+      return depth_at_centre(node) + max(slope, T(-slope)) * node.half_width;
     }
   };
+
+  // From one strip to another.
+  struct Interval {
+    int first = 0, last = 0;
+  };
+
+  // The node without the strips at its end that g is under the limit for, by its bound: it is linear.
+  [[nodiscard, gnu::always_inline]] inline Interval part_below(const Line& line,
+                                                               const StripNode<T>& node,
+                                                               const T& limit) const {
+    const T lean = line.lean(node);
+    const T excess = line.depth_at_centre(node) - limit;
+    const Strip<T>* const strips = wheel_.strips().strips().data();
+    const auto is_above = [&](int strip) {
+      return excess + lean * (strips[strip].lateral - node.centre) < T(0);
+    };
+    Interval part{node.first, node.last};
+    if (T(0) < lean) {
+      while (part.first < part.last && is_above(part.first + 1)) ++part.first;
+    } else {
+      while (part.first < part.last && is_above(part.last - 1)) --part.last;
+    }
+    return part;
+  }
 
   // The one near the locus point of the node's middle strip, but for yaw squared.
   [[nodiscard, gnu::always_inline]] inline Line line_near(const StripNode<T>& node) const {

@@ -110,22 +110,17 @@ class PenetrationBounds {
     if (!(rail.lower() < result.least_foot()) || !(result.greatest_foot() < rail.upper())) {
       return result;
     }
-    const T curved =
-        deepest * rail_.greatest_curvature(result.least_foot(), result.greatest_foot());
+    const T curvature = rail_.greatest_curvature(result.least_foot(), result.greatest_foot());
+    const T curved = deepest * curvature;
     if (!(curved < constant<T>(0.5L))) return result;
     result.foot_change = travel / (T(1) - curved);
-    const auto normal_at = [&](const T& lateral) {
-      const Vector3<T> normal_rail = Rail<R>::normal_rail(rail.evaluate(lateral));
-      return Vector2<T>(normal_rail.y(), normal_rail.z());
-    };
-    result.normal_lower = normal_at(result.least_foot());
-    result.normal_upper = normal_at(result.greatest_foot());
-    const T normal_change = sqrt(T(square(T(result.normal_upper.x() - result.normal_lower.x())) +
-                                   square(T(result.normal_upper.y() - result.normal_lower.y()))));
+    // The foot moves so far along the surface; where that has a corner, its curvature is unbounded.
+    result.normal_rail = strip.normal_rail;
+    result.normal_change = result.foot_change * curvature;
     result.penetration = strip.penetration;
     result.penetration_change = travel;
     result.slope = strip.slope;
-    result.slope_change = speed * normal_change + rate_change;
+    result.slope_change = speed * result.normal_change + rate_change;
     result.exists = is_finite(result.slope_change);
     return result;
   }
@@ -171,24 +166,17 @@ class PenetrationBounds {
     const T first_foot = min(left.least_foot(), right.least_foot());
     const T last_foot = max(left.greatest_foot(), right.greatest_foot());
     // Along the axes that the wheel's roll turns.
-    T least_up = T(1), greatest_up = T(0), least_lateral = T(1), greatest_lateral = T(-1);
-    const auto take = [&](const Vector2<T>& normal) {
-      const T up = normal.y() * cos_roll_ - normal.x() * sin_roll_;
-      const T lateral = normal.x() * cos_roll_ + normal.y() * sin_roll_;
-      least_up = min(least_up, up);
-      greatest_up = max(greatest_up, up);
-      least_lateral = min(least_lateral, lateral);
-      greatest_lateral = max(greatest_lateral, lateral);
-    };
-    take(left.normal_at_least_foot());
-    take(right.normal_at_greatest_foot());
-    if constexpr (!std::is_same_v<End, LocusStrip<T>>) {
-      take(left.normal_at_greatest_foot());
-      take(right.normal_at_least_foot());
-    }
-    least_up = least_up - turn_;
-    greatest_up = greatest_up + turn_;
-    const bool may_be_upright = !(turn_ < least_lateral) && !(greatest_lateral < -turn_);
+    const auto up = [&](const Vector2<T>& n) { return n.y() * cos_roll_ - n.x() * sin_roll_; };
+    const auto aside = [&](const Vector2<T>& n) { return n.x() * cos_roll_ + n.y() * sin_roll_; };
+    const T left_up = up(left.normal_rail), right_up = up(right.normal_rail);
+    const T left_aside = aside(left.normal_rail), right_aside = aside(right.normal_rail);
+    T turn = turn_;
+    if constexpr (End::moves) turn = turn + max(left.normal_change, right.normal_change);
+    const T least_up = min(left_up, right_up) - turn;
+    T greatest_up = max(left_up, right_up) + turn;
+    const T least_lateral = min(left_aside, right_aside) - turn;
+    const T greatest_lateral = max(left_aside, right_aside) + turn;
+    const bool may_be_upright = !(T(0) < least_lateral) && !(greatest_lateral < T(0));
     if (may_be_upright) greatest_up = T(1);
     const T wheel_bend =
         bend - hollow +
@@ -242,71 +230,5 @@ class PenetrationBounds {
   T turn_;  // by which yaw and roll each may change [rad]
   T threshold_;
 };
-
-/// The cubic with the penetrations and slopes of two strips, over the share t of the way from the
-/// left to the right one: where a root or an extremum is looked for first.
-template <Real T>
-struct PenetrationCubic {
-  T c0, c1, c2, c3;
-
-  PenetrationCubic(const LocusStrip<T>& left, const LocusStrip<T>& right, const T& threshold) {
-    const T width = right.wheel_lateral - left.wheel_lateral;
-    const T rise = right.penetration - left.penetration;
-    c0 = left.penetration - threshold;
-    c1 = width * left.slope;
-    c2 = T(3) * rise - width * (T(2) * left.slope + right.slope);
-    c3 = width * (left.slope + right.slope) - T(2) * rise;
-  }
-
-  // Two Newton steps from the share t.
-  [[nodiscard]] T near_root(T t) const {
-    for (int i = 0; i < 2; ++i) {
-      t -= (c0 + t * (c1 + t * (c2 + t * c3))) / (c1 + t * (T(2) * c2 + t * T(3) * c3));
-    }
-    return t;
-  }
-  [[nodiscard]] T near_extremum(T t) const {
-    for (int i = 0; i < 2; ++i) {
-      t -= (c1 + t * (T(2) * c2 + t * T(3) * c3)) / (T(2) * c2 + t * T(6) * c3);
-    }
-    return t;
-  }
-};
-
-// `share` of the way from left to right; where it leads out of the interval, `otherwise`.
-template <Real T>
-[[nodiscard]] T between(const LocusStrip<T>& left, const LocusStrip<T>& right, const T& share,
-                        const T& otherwise) {
-  return left.wheel_lateral + (T(0) < share && share < T(1) ? share : otherwise) *
-                                  (right.wheel_lateral - left.wheel_lateral);
-}
-
-// Where between two strips the penetration's extremum may be, if there is one [m].
-template <Real T>
-[[nodiscard]] T extremum_guess(const LocusStrip<T>& left, const LocusStrip<T>& right,
-                               const T& threshold) {
-  const T secant = left.slope / (left.slope - right.slope);
-  const PenetrationCubic<T> cubic(left, right, threshold);
-  return between(left, right, cubic.near_extremum(secant), secant);
-}
-
-// Where between two strips, one of which penetrates, the penetration may pass the threshold [m]. The
-// cubic's root is looked for from a parabola with its top at the strip inside, where that is the
-// zone's deepest; otherwise from a chord.
-template <Real T>
-[[nodiscard]] T boundary_guess(const LocusStrip<T>& left, const LocusStrip<T>& right,
-                               bool left_is_inside, const T& threshold) {
-  using std::sqrt;
-  const LocusStrip<T>& inside = left_is_inside ? left : right;
-  const LocusStrip<T>& outside = left_is_inside ? right : left;
-  const T depth = inside.penetration - threshold;
-  const T chord = depth / (inside.penetration - outside.penetration);
-  const bool at_top =
-      magnitude(inside.slope) * magnitude(T(right.wheel_lateral - left.wheel_lateral)) <
-      depth / T(4);
-  const T from_inside = at_top ? T(sqrt(chord)) : chord;
-  const T share = left_is_inside ? from_inside : T(T(1) - from_inside);
-  return between(left, right, PenetrationCubic<T>(left, right, threshold).near_root(share), share);
-}
 
 }  // namespace wheelrail::detail
