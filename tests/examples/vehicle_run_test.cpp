@@ -511,10 +511,12 @@ TEST_CASE("run_vehicle: a wheel that leaves its rail ends the run, which keeps i
     const char *wheel, *how;
   };
   const Way way = GENERATE(
-      // 1.74 g outwards turn the vehicle over the outer rail; 0.49 g do not, but
-      // with that friction the outer flange climbs (Nadal: from 0.47 of the wheel's load on).
+      // 1.74 g outwards turn the vehicle over the outer rail; at 0.68 g and with that
+      // friction the outer flange climbs before (Nadal: from 0.47 of the wheel's load on), at
+      // the same place for starts that differ by rounding. In wider curves that friction makes
+      // a motion of which rounding decides when and how it ends.
       Way{60, 32, 0.6, "the front leading wheelset's left wheel left its rail", "it is lifted"},
-      Way{100, 22, 1, "the front leading wheelset's right wheel left its rail",
+      Way{60, 20, 1, "the front leading wheelset's right wheel left its rail",
           "its flange stands on the rail head"});
   CAPTURE(way.how);
   const auto track = curved_track(

@@ -65,16 +65,18 @@ void for_each_near_run(const Wheel<P>& wheel, const Rail<R>& rail,
     }
     // The lanes that look at the node's children; for the others that kept it, it belongs to a run.
     Lanes<T> goes_down = is_kept;
-    if (is_any_kept && node.is_in_one_piece && node.last - node.first <= 4) {
+    if (is_any_kept && node.is_in_one_piece && node.last - node.first <= finest_node) {
       goes_down = is_kept * less<T>(finest, all_lanes(T(node.last - node.first)));
       for (int lane = 0; lane < lane_count; ++lane) {
         if (!(goes_down[lane] < is_kept[lane])) continue;
         const auto i = static_cast<std::size_t>(lane);
-        if (node.first != last[i]) {
+        const LineAbove<T> line{along[lane], across[lane], height[lane]};
+        const StripRange part = near_part(wheel.strips(), node, line, threshold);
+        if (part.first != last[i]) {
           if (first[i] != last[i]) visit(lane, first[i], last[i]);
-          first[i] = node.first;
+          first[i] = part.first;
         }
-        last[i] = node.last;
+        last[i] = part.last;
       }
       is_any_kept = any<T>(goes_down);
     }

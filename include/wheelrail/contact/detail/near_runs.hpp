@@ -16,12 +16,60 @@ inline constexpr int finest_node = 8;
 template <Real T>
 inline constexpr T small_squared_tan_yaw = constant<T>(1e-4L);
 
+// A line above the rail, with the normal n, at P; the bound g is taken of it, which is linear over a
+// node.
+template <Real T>
+struct LineAbove {
+  T along_axle = T(0);             // n.a
+  T across_axle = T(0);            // sqrt(1 - (n.a)^2)
+  T height = T(1) / epsilon<T>();  // n.(P - o) [m]; at first above everything
+
+  [[nodiscard, gnu::always_inline]] inline T depth_at_centre(const StripNode<T>& node) const {
+    return height - node.centre * along_axle + node.greatest_radius * across_axle;
+  }
+  // By which the bound changes along the profile.
+  [[nodiscard, gnu::always_inline]] inline T lean(const StripNode<T>& node) const {
+    return node.slope * across_axle - along_axle;
+  }
+  [[nodiscard, gnu::always_inline]] inline T greatest_depth(const StripNode<T>& node) const {
+    const T slope = lean(node);
+    return depth_at_centre(node) + max(slope, T(-slope)) * node.half_width;
+  }
+};
+
+// From one strip to another.
+struct StripRange {
+  int first = 0, last = 0;
+};
+
+// A node without the strips at its end that the line keeps `limit` [m] from the rail.
+template <Real T>
+[[nodiscard, gnu::always_inline]] inline StripRange near_part(const StripTree<T>& tree,
+                                                              const StripNode<T>& node,
+                                                              const LineAbove<T>& line,
+                                                              const T& limit) {
+  const T lean = line.lean(node);
+  const T excess = line.depth_at_centre(node) - limit;
+  const Strip<T>* const strips = tree.strips().data();
+  const auto is_above = [&](int strip) {
+    return excess + lean * (strips[strip].lateral - node.centre) < T(0);
+  };
+  StripRange part{node.first, node.last};
+  if (T(0) < lean) {
+    while (part.first < part.last && is_above(part.first + 1)) ++part.first;
+  } else {
+    while (part.first < part.last && is_above(part.last - 1)) --part.last;
+  }
+  return part;
+}
+
 // The runs of strips that no line above the rail keeps off it. What is called for each node is
 // always inlined: a search spends a quarter of its time here.
 template <Profile P, Profile R>
 class NearRuns {
  public:
   using T = typename P::Scalar;
+  using Line = LineAbove<T>;
 
   // threshold: of a zone's penetration, less what rounding makes of it [m].
   NearRuns(const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<T>& placement,
@@ -62,7 +110,8 @@ class NearRuns {
         if (!is_above && count <= finest && node->is_in_one_piece) break;
         node = is_above ? begin + node->skip : node + 1;
       }
-      const Interval next = node == end ? Interval{} : part_below(line, *node, limit);
+      const StripRange next =
+          node == end ? StripRange{} : near_part(wheel_.strips(), *node, line, limit);
       if (first != last && (node == end || next.first != last)) {
         visit(first, last);
         first = last;
@@ -84,49 +133,6 @@ class NearRuns {
   }
 
  private:
-  // A line above the rail, with the normal n, at P; the bound g is taken of it.
-  struct Line {
-    T along_axle = T(0);             // n.a
-    T across_axle = T(0);            // sqrt(1 - (n.a)^2)
-    T height = T(1) / epsilon<T>();  // n.(P - o) [m]; at first above everything
-
-    // Of the bound of g over a node, which is linear: where the node's centre is, and its slope.
-    [[nodiscard, gnu::always_inline]] inline T depth_at_centre(const StripNode<T>& node) const {
-      return height - node.centre * along_axle + node.greatest_radius * across_axle;
-    }
-    [[nodiscard, gnu::always_inline]] inline T lean(const StripNode<T>& node) const {
-      return node.slope * across_axle - along_axle;
-    }
-    [[nodiscard, gnu::always_inline]] inline T greatest_depth(const StripNode<T>& node) const {
-      const T slope = lean(node);
-      return depth_at_centre(node) + max(slope, T(-slope)) * node.half_width;
-    }
-  };
-
-  // From one strip to another.
-  struct Interval {
-    int first = 0, last = 0;
-  };
-
-  // The node without the strips at its end that g is under the limit for, by its bound: it is linear.
-  [[nodiscard, gnu::always_inline]] inline Interval part_below(const Line& line,
-                                                               const StripNode<T>& node,
-                                                               const T& limit) const {
-    const T lean = line.lean(node);
-    const T excess = line.depth_at_centre(node) - limit;
-    const Strip<T>* const strips = wheel_.strips().strips().data();
-    const auto is_above = [&](int strip) {
-      return excess + lean * (strips[strip].lateral - node.centre) < T(0);
-    };
-    Interval part{node.first, node.last};
-    if (T(0) < lean) {
-      while (part.first < part.last && is_above(part.first + 1)) ++part.first;
-    } else {
-      while (part.first < part.last && is_above(part.last - 1)) --part.last;
-    }
-    return part;
-  }
-
   // The one near the locus point of the node's middle strip, but for yaw squared.
   [[nodiscard, gnu::always_inline]] inline Line line_near(const StripNode<T>& node) const {
     const T& radius = node.greatest_radius;

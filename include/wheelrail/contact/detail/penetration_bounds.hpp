@@ -17,7 +17,8 @@
 ///    p'' <= -n.L'' - (|L'|^2 - p'^2) k / (1 + k gap). Where that is negative p has one maximum at
 ///    most. Where |p'| < |L'| the foot moves one way, from the foot of one strip to the other's.
 /// 4. With k the greatest curvature, p'' >= -n.L'' - |L'|^2 k / (1 - k p): where that is positive p
-///    has one minimum at most.
+///    has one minimum at most. Where it is negative, but p' has one sign at both strips and cannot
+///    change twice in between by these bounds of p'' from both sides, p has no extremum at all.
 /// 5. Strips of which none of this can be said are divided until it can, or until p varies by less
 ///    than the depth tolerance between them.
 ///
@@ -197,18 +198,40 @@ class PenetrationBounds {
     const T deepest =
         max(T(0), T(max(left.greatest_penetration(), right.greatest_penetration()) + variation));
     const T wheel_bend_least =
-        least_up * cosine * shape.least_second - by_yaw - twist * steepest -
+        shape.least_second * (shape.least_second < T(0) ? greatest_up : T(least_up * cosine)) -
+        by_yaw - twist * steepest -
         T(2) * yaw * radius * square(shape.second) / (square(cosine) * cosine);
-    const bool is_convex = greatest_curvature * deepest < T(1) &&
-                           greatest_speed * greatest_curvature <
-                               wheel_bend_least * (T(1) - greatest_curvature * deepest);
-    return {is_convex ? Verdict::simple : Verdict::open, variation};
+    const T under_centre = T(1) - greatest_curvature * deepest;
+    if (!(T(0) < under_centre)) return {Verdict::open, variation};
+    const T least_bend = wheel_bend_least - greatest_speed * greatest_curvature / under_centre;
+    if (T(0) < least_bend || keeps_sign(left, right, least_bend, greatest_bend)) {
+      return {Verdict::simple, variation};
+    }
+    return {Verdict::open, variation};
   }
 
  private:
   template <class End>
   [[nodiscard]] static T greatest_slope_of(const End& end) {
     return max(magnitude(end.least_slope()), magnitude(end.greatest_slope()));
+  }
+
+  // Whether the penetration's slope has one sign, as its second derivative has both within bounds.
+  // @pre least_bend <= 0 < greatest_bend
+  template <class End>
+  [[nodiscard]] static bool keeps_sign(const End& left, const End& right, const T& least_bend,
+                                       const T& greatest_bend) {
+    // Where the bounds of the slope from the left and from the right meet it is nearest to zero.
+    const T width = right.wheel_lateral - left.wheel_lateral;
+    const T range = greatest_bend - least_bend;
+    const T from_left = left.least_slope(), from_right = right.least_slope();
+    if (T(0) < from_left && T(0) < from_right) {
+      return T(0) <
+             from_left * range + least_bend * (from_left - from_right + greatest_bend * width);
+    }
+    const T to_left = left.greatest_slope(), to_right = right.greatest_slope();
+    return to_left < T(0) && to_right < T(0) &&
+           to_left * range + greatest_bend * (to_right - to_left - least_bend * width) < T(0);
   }
 
   // Whether the penetration can pass the threshold, its second derivative being at most `bend`.
