@@ -38,6 +38,10 @@ done
 packages="g++ cmake make libeigen3-dev catch2 libbenchmark-dev pkgconf libceres-dev doxygen"
 # The simulators of examples/hosts.
 packages="$packages libsimbody-dev libdart-dev libdart-external-ikfast-dev"
+if [ "$slow" = yes ] && [ "$compilers" = clang++ ]; then
+  echo "tests/run.sh: --slow runs with g++, not with --compiler clang++" >&2
+  exit 2
+fi
 for compiler in $compilers; do
   case $compiler in
     g++) ;;

@@ -113,7 +113,7 @@ TEST_CASE("judge: what is simple has one extremum at most, what is excluded does
   int excluded = 0, simple = 0, one_sign = 0, open = 0, open_with_more = 0;
   for (int i = 0; i < 6000; ++i) {
     const double lateral = between(-0.008, 0.008), up = between(0.4290, 0.4305);
-    const auto placement = placed(lateral, up, between(-0.03, 0.03), between(-0.01, 0.01));
+    const auto placement = placed(lateral, up, between(-0.03, 0.03), between(-0.08, 0.08));
     const detail::PenetrationBounds<RailHead<double>> bounds(rail, wheel.strips().greatest_radius(),
                                                              placement, 0.0);
     const double u = between(-0.036, 0.04), half_width = between(1e-4, 6e-3);

@@ -181,6 +181,7 @@ class StripWalk {
       settle_outside(part.left);
     }
     part.extremum = extremum_guess(part.left, part.right);
+    part.found_at = placement_.position_rail.y();
     memory_->add(part);
   }
 

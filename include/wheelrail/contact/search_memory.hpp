@@ -29,6 +29,7 @@ struct RememberedPart {
   // The penetration has one extremum at most; otherwise nothing is known.
   bool is_simple = false;
   T extremum = T(0);       // where it was last [m]
+  T found_at = T(0);       // lateral position of the wheel then [m]
   T extremum_rate = T(0);  // by which it moves as the wheel moves to the side
   // What lies to the left: nothing near the rail, another piece, or a part with the same strip.
   enum class Joins { apart, joint, same } joins = Joins::apart;
@@ -107,20 +108,22 @@ class SearchMemory {
   /// The zones' ends that were found are those of the search before now.
   void begin_search(const WheelPlacement<T>& placement) {
     ++searches_;
-    shift_ = placement.position_rail.y() - last_lateral_;
-    last_lateral_ = placement.position_rail.y();
+    now_lateral_ = placement.position_rail.y();
     last_zone_ends_ = zone_ends_;
     zone_ends_.clear();
   }
-  /// Where a part's extremum may be now: moved on as it did between the two searches before.
+  /// Where a part's extremum may be now: moved on as it did between the last two times it was found.
   [[nodiscard]] T extremum_near(const detail::RememberedPart<T>& part) const {
-    return part.extremum + part.extremum_rate * shift_;
+    return part.extremum + part.extremum_rate * (now_lateral_ - part.found_at);
   }
-  /// Where it is.
+  /// Where it is now.
   void found_extremum(detail::RememberedPart<T>& part, const T& lateral) const {
-    if (motion_.distance / T(1000) < detail::magnitude(shift_))
-      part.extremum_rate = (lateral - part.extremum) / shift_;
+    const T shift = now_lateral_ - part.found_at;
+    if (motion_.distance / T(1000) < detail::magnitude(shift)) {
+      part.extremum_rate = (lateral - part.extremum) / shift;
+    }
     part.extremum = lateral;
+    part.found_at = now_lateral_;
   }
   /// @param inside a strip of the zone. @param depth of it beyond the threshold [m].
   void add_zone_end(const T& lateral, const T& inside, const T& depth) {
@@ -160,8 +163,7 @@ class SearchMemory {
   T checksum_ = T(0);
   T threshold_ = T(0);
   T lateral_ = T(0), up_ = T(0);
-  T last_lateral_ = T(0),
-    shift_ = T(0);  // of the wheel's position, and since the search before [m]
+  T now_lateral_ = T(0);  // of the wheel's position in this search [m]
   Vector3<T> axle_rail_ = Vector3<T>::UnitY();
 };
 

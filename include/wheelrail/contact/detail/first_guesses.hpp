@@ -38,13 +38,14 @@ struct Cubic {
 // The penetration less the threshold between two strips, over the share t of the way from the left to
 // the right one. Where the foot passes a joint of the rail its second derivative jumps: then it is
 // taken to be two cubics with the same third derivative, which have the slopes and the second
-// derivatives of the strips, meet in slope, and rise by as much together as the penetration does.
-// Otherwise it is the cubic with the penetrations and slopes of both.
+// derivatives of the strips and rise by as much together as the penetration does; they change places
+// where they would meet in slope if they were parabolas. Otherwise it is the cubic with the
+// penetrations and slopes of both.
 template <Real T>
 struct PenetrationCurve {
   Cubic<T> from_left;   // over t
-  Cubic<T> from_right;  // over t - 1; that of the left one again without a joint
-  T joint = T(1);       // t there
+  Cubic<T> from_right;  // over t - 1; unused without a joint
+  T joint = T(1);       // t there; 1: there is none
 
   PenetrationCurve(const LocusStrip<T>& left, const LocusStrip<T>& right, const T& threshold) {
     const T width = right.wheel_lateral - left.wheel_lateral;

@@ -134,11 +134,19 @@ class PenetrationBounds {
     using std::sqrt;
     const Judgement<T> unknown{Verdict::open, radius_, left.exists || right.exists};
     if (!rail_.is_convex() || !left.exists || !right.exists) return unknown;
+    // Along the axes that the wheel's roll turns.
+    const auto up = [&](const Vector2<T>& n) { return n.y() * cos_roll_ - n.x() * sin_roll_; };
+    const auto aside = [&](const Vector2<T>& n) { return n.x() * cos_roll_ + n.y() * sin_roll_; };
+    const T left_up = up(left.normal_rail), right_up = up(right.normal_rail);
+    T turn = turn_;
+    if constexpr (End::moves) turn = turn + max(left.normal_change, right.normal_change);
+    const T least_up = min(left_up, right_up) - turn;
     const T width = right.wheel_lateral - left.wheel_lateral;
     const T& yaw = squared_tan_yaw_;
     const T slope = shape.steepest, slope_squared = square(slope);
     const T& radius = radius_;
-    const T hollow = max(T(0), shape.greatest_second);
+    // Not less than -n.L'' without yaw, beside an upright flank too.
+    const T hollow = max(max(T(0), shape.greatest_second), T(-least_up * shape.second));
     const T sine_squared = yaw * slope_squared;
     if (!(sine_squared + yaw * (slope_squared + radius * hollow) < constant<T>(0.5L))) {
       return {Verdict::open, radius_, false};
@@ -166,22 +174,19 @@ class PenetrationBounds {
     // So the foot moves one way, from the left strip's to the right one's, and so does the normal.
     const T first_foot = min(left.least_foot(), right.least_foot());
     const T last_foot = max(left.greatest_foot(), right.greatest_foot());
-    // Along the axes that the wheel's roll turns.
-    const auto up = [&](const Vector2<T>& n) { return n.y() * cos_roll_ - n.x() * sin_roll_; };
-    const auto aside = [&](const Vector2<T>& n) { return n.x() * cos_roll_ + n.y() * sin_roll_; };
-    const T left_up = up(left.normal_rail), right_up = up(right.normal_rail);
     const T left_aside = aside(left.normal_rail), right_aside = aside(right.normal_rail);
-    T turn = turn_;
-    if constexpr (End::moves) turn = turn + max(left.normal_change, right.normal_change);
-    const T least_up = min(left_up, right_up) - turn;
     T greatest_up = max(left_up, right_up) + turn;
     const T least_lateral = min(left_aside, right_aside) - turn;
     const T greatest_lateral = max(left_aside, right_aside) + turn;
     const bool may_be_upright = !(T(0) < least_lateral) && !(greatest_lateral < T(0));
     if (may_be_upright) greatest_up = T(1);
+    // F'' n_up cos s_w is within these.
+    const T at_least = min(shape.least_second * least_up, shape.least_second * greatest_up);
+    const T at_most = max(shape.greatest_second * least_up, shape.greatest_second * greatest_up);
+    const T least_product = min(at_least, T(shape.greatest_second * least_up));
+    const T greatest_product = max(at_most, T(shape.least_second * least_up));
     const T wheel_bend =
-        bend - hollow +
-        shape.greatest_second * (shape.greatest_second < T(0) ? T(least_up * cosine) : greatest_up);
+        bend - hollow + (greatest_product < T(0) ? T(greatest_product * cosine) : greatest_product);
     const auto [curvature, greatest_curvature] = rail_.curvatures(first_foot, last_foot);
     const T gap =
         max(T(0), T(variation - min(left.least_penetration(), right.least_penetration())));
@@ -198,9 +203,8 @@ class PenetrationBounds {
     const T deepest =
         max(T(0), T(max(left.greatest_penetration(), right.greatest_penetration()) + variation));
     const T wheel_bend_least =
-        shape.least_second * (shape.least_second < T(0) ? greatest_up : T(least_up * cosine)) -
-        by_yaw - twist * steepest -
-        T(2) * yaw * radius * square(shape.second) / (square(cosine) * cosine);
+        (least_product < T(0) ? least_product : T(least_product * cosine)) - by_yaw -
+        twist * steepest - T(2) * yaw * radius * square(shape.second) / (square(cosine) * cosine);
     const T under_centre = T(1) - greatest_curvature * deepest;
     if (!(T(0) < under_centre)) return {Verdict::open, variation};
     const T least_bend = wheel_bend_least - greatest_speed * greatest_curvature / under_centre;

@@ -3,6 +3,7 @@
 // May include: core, dynamics, std.
 
 #include <cstddef>
+#include <wheelrail/core/assert.hpp>
 #include <wheelrail/core/fixed_list.hpp>
 #include <wheelrail/dynamics/body_motion.hpp>
 
@@ -14,6 +15,7 @@ class BodyArray {
   // The ground's, and of_body(i) for each of @p count bodies. @pre count <= MaximumBodies
   template <class OfBody>
   BodyArray(const Value& ground, int count, const OfBody& of_body) {
+    WHEELRAIL_ASSERT(0 <= count && static_cast<std::size_t>(count) <= MaximumBodies);
     static_cast<void>(values_.push_back(ground));
     for (int i = 0; i < count; ++i) {
       static_cast<void>(values_.push_back_made([&of_body, i] { return of_body(i); }));

@@ -83,6 +83,11 @@ class RailConvexity {
     const T& last = rises ? other : one;
     std::size_t piece = piece_at(rises ? one : other);
     CurvatureBounds<T> bounds{curvatures_[piece].least, curvatures_[piece].greatest};
+    // A foot on a corner is there but for rounding.
+    const PieceCurvature& at_first = curvatures_[piece];
+    const T from_joint = (rises ? one : other) - at_first.lower;
+    if (from_joint < T(64) * epsilon<T>())
+      bounds.greatest = max(bounds.greatest, at_first.at_lower_joint);
     for (++piece; piece < curvatures_.size() && !(last < curvatures_[piece].lower); ++piece) {
       const PieceCurvature& next = curvatures_[piece];
       bounds.least = min(bounds.least, next.least);
