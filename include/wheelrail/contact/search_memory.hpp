@@ -105,7 +105,7 @@ class SearchMemory {
     is_valid_ = true;
   }
 
-  /// The zones' ends that were found are those of the search before now.
+  /// The zones' ends that were found are those of the search before now, which is at `placement`.
   void begin_search(const WheelPlacement<T>& placement) {
     ++searches_;
     now_lateral_ = placement.position_rail.y();

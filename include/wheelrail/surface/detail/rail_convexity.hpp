@@ -44,6 +44,7 @@ class RailConvexity {
   explicit RailConvexity(const P& profile)
       : is_convex_(is_convex_profile(profile, max(constant<T>(1e-6L), T(T(256) * epsilon<T>())))) {
     constexpr int intervals = 256;
+    rounding_ = T(64) * epsilon<T>() * (profile.upper() - profile.lower());
     const T corner = T(256) * epsilon<T>();
     bool nowhere_concave = HasDerivativeBounds<P>;
     for (int piece = 0; piece < profile.piece_count(); ++piece) {
@@ -84,10 +85,9 @@ class RailConvexity {
     std::size_t piece = piece_at(rises ? one : other);
     CurvatureBounds<T> bounds{curvatures_[piece].least, curvatures_[piece].greatest};
     // A foot on a corner is there but for rounding.
-    const PieceCurvature& at_first = curvatures_[piece];
-    const T from_joint = (rises ? one : other) - at_first.lower;
-    if (from_joint < T(64) * epsilon<T>())
-      bounds.greatest = max(bounds.greatest, at_first.at_lower_joint);
+    if ((rises ? one : other) - curvatures_[piece].lower < rounding_) {
+      bounds.greatest = max(bounds.greatest, curvatures_[piece].at_lower_joint);
+    }
     for (++piece; piece < curvatures_.size() && !(last < curvatures_[piece].lower); ++piece) {
       const PieceCurvature& next = curvatures_[piece];
       bounds.least = min(bounds.least, next.least);
@@ -118,6 +118,7 @@ class RailConvexity {
   bool is_convex_;
   bool is_proved_convex_ = false;
   T checksum_ = T(0);
+  T rounding_ = T(0);  // of a lateral coordinate [m]
   std::vector<PieceCurvature> curvatures_;
   SupportingLines<T> supporting_lines_;
 };
