@@ -118,7 +118,19 @@ echo "$version" >"$work/version"
 same "the program knows another version than CMake" "$work/installed.out" "$work/version"
 if [ "$brief" = no ]; then
   consume subdirectory -Dwheelrail_source="$root"
-  consume fetched -Dwheelrail_source="$root"
+  if command -v git >/dev/null; then
+    # A repository of what a user of the library needs.
+    repository=$work/repository
+    mkdir -p -- "$repository"
+    cp -R -- "$root/CMakeLists.txt" "$root/include" "$repository"
+    try "making a repository" git -C "$repository" init -b main
+    git -C "$repository" add .
+    try "committing to a repository" git -C "$repository" -c user.name=nobody \
+      -c user.email=nobody@localhost commit -m "As it is"
+    consume fetched -Dwheelrail_source="$repository"
+  else
+    echo "== fetched: left out without git"
+  fi
 fi
 
 echo "== pkg-config, without exceptions and run-time type information"

@@ -60,13 +60,14 @@ class StripWalk {
   using T = typename P::Scalar;
 
   StripWalk(const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<T>& placement,
-            const SearchOptions<T>& options, SearchMemory<T>* memory)
+            const SearchOptions<T>& options, SearchMemory<T>* memory, ContactResult<T>& result)
       : wheel_(wheel),
         rail_(rail),
         placement_(placement),
         options_(options),
         can_prove_(wheel.strips().is_proved() && rail.is_proved_convex()),
         memory_(memory),
+        result_(result),
         margin_(T(64) * epsilon<T>() * wheel.nominal_radius()),
         strips_(wheel, rail, placement),
         near_(wheel, rail, placement, T(options.penetration_threshold - margin_)),
@@ -77,7 +78,8 @@ class StripWalk {
     resolution_ = blending_resolution(wheel, options);
   }
 
-  [[nodiscard]] ContactResult<T> run() {
+  // Into the result, which is as constructed.
+  void run() {
     result_.is_proved = can_prove_;
     if (memory_ == nullptr || !can_prove_) {
       near_.for_each(T(0), [this](int first, int last) {
@@ -94,7 +96,6 @@ class StripWalk {
     }
     leave_zone();
     result_.evaluations += strips_.count();
-    return result_;
   }
 
  private:
@@ -478,17 +479,20 @@ class StripWalk {
 
   void add_patch(const T& zone_upper, const T& penetration_to_next) {
     ++result_.evaluations;
-    Patch<T> patch =
-        patch_on_strip(wheel_, rail_, placement_, deepest_.piece, deepest_.wheel_lateral);
-    patch.zone_lower = zone_lower_;
-    patch.zone_upper = zone_upper;
-    patch.zone_is_cut = zone_is_cut_;
-    if (is_blending_) {
-      patch.penetration_to_next = penetration_to_next;
-      patch = with_mean_curvatures(patch, wheel_, rail_, options_.blending_length);
-    }
-    if (options_.maximum_penetration < patch.penetration) result_.status = SearchStatus::too_deep;
-    if (!result_.patches.push_back(patch)) result_.status = SearchStatus::too_many_patches;
+    const bool is_kept = result_.patches.push_back_made([&] {
+      Patch<T> patch =
+          patch_on_strip(wheel_, rail_, placement_, deepest_.piece, deepest_.wheel_lateral);
+      patch.zone_lower = zone_lower_;
+      patch.zone_upper = zone_upper;
+      patch.zone_is_cut = zone_is_cut_;
+      if (is_blending_) {
+        patch.penetration_to_next = penetration_to_next;
+        patch = with_mean_curvatures(patch, wheel_, rail_, options_.blending_length);
+      }
+      if (options_.maximum_penetration < patch.penetration) result_.status = SearchStatus::too_deep;
+      return patch;
+    });
+    if (!is_kept) result_.status = SearchStatus::too_many_patches;
   }
 
   const Wheel<P>& wheel_;
@@ -497,21 +501,19 @@ class StripWalk {
   const SearchOptions<T>& options_;
   bool can_prove_;           // given that nothing is too steep or divided too often
   SearchMemory<T>* memory_;  // null: nothing is remembered
-  T margin_;                 // rounding of the bound and of the penetration [m]
+  ContactResult<T>& result_;
+  T margin_;  // rounding of the bound and of the penetration [m]
   LocusStrips<P, R> strips_;
   NearRuns<P, R> near_;
   PenetrationBounds<R> bounds_;
-  T grid_ = T(0);  // a last Newton step this long leaves an error of rounding [m]
-  ContactResult<T> result_;
+  T grid_ = T(0);     // a last Newton step this long leaves an error of rounding [m]
   int reached_ = -1;  // the last strip of the wheel that was visited
-  Strip last_;
-  Strip deepest_;
+  Strip last_, deepest_;
   T zone_lower_ = T(0);
-  bool zone_is_open_ = false;
+  bool zone_is_open_ = false, zone_is_cut_ = false;
   bool is_blending_ = false;
   bool has_fallen_ = false;  // of a blended zone: from a local maximum to a minimum so far
   T resolution_ = T(0), minimum_ = T(0), minimum_lateral_ = T(0);
-  bool zone_is_cut_ = false;
 };
 
 // Sets the shares of blended patches.
@@ -542,16 +544,17 @@ template <Profile P, Profile R>
     }
     return result;
   } else {
+    ContactResult<T> result;
     if (!is_finite_placement(placement) || !is_finite(options.penetration_threshold)) {
-      ContactResult<T> result;
       result.status = SearchStatus::not_finite;
       return result;
     }
-    ContactResult<T> result = StripWalk<P, R>(wheel, rail, placement, options, memory).run();
+    StripWalk<P, R>(wheel, rail, placement, options, memory, result).run();
     if (memory != nullptr && !result.is_proved) {
       // At this very placement more may be excluded than near it.
       const int evaluations = result.evaluations;
-      result = StripWalk<P, R>(wheel, rail, placement, options, nullptr).run();
+      result = {};
+      StripWalk<P, R>(wheel, rail, placement, options, nullptr, result).run();
       result.evaluations += evaluations;
     }
     if (T(0) < options.blending_length) share_out(result, blending_resolution(wheel, options));

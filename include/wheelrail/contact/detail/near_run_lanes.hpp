@@ -47,13 +47,13 @@ void for_each_near_run(const Wheel<P>& wheel, const Rail<R>& rail,
       const T& radius = node.greatest_radius;
       const Lanes<T> y = node.centre - radius * (node.slope * fold);
       Lanes<T> normal_lateral, normal_up, line_height;
-      lines.near_each(at.lateral_rail + y * at.cos_roll + radius * at.sin_roll,
-                      at.up_rail + y * at.sin_roll - radius * at.cos_roll,
-                      [&](int lane, const SupportingLine<T>& line) {
-                        normal_lateral[lane] = line.normal.x();
-                        normal_up[lane] = line.normal.y();
-                        line_height[lane] = line.height;
-                      });
+      const Lanes<T> lateral = at.lateral_rail + y * at.cos_roll + radius * at.sin_roll;
+      for (int lane = 0; lane < lane_count; ++lane) {
+        const SupportingLine<T>& line = lines.over(lateral[lane]);
+        normal_lateral[lane] = line.normal.x();
+        normal_up[lane] = line.normal.y();
+        line_height[lane] = line.height;
+      }
       const Lanes<T> new_along = normal_lateral * axle_lateral + normal_up * axle_up;
       along = choose<T>(is_kept, new_along, along);
       const Lanes<T> other = normal_lateral * axle_up - normal_up * axle_lateral;

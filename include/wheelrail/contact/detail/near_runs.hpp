@@ -133,15 +133,13 @@ class NearRuns {
   }
 
  private:
-  // The one near the locus point of the node's middle strip, but for yaw squared.
+  // The one over, or under, the locus point of the node's middle strip, but for yaw squared.
   [[nodiscard, gnu::always_inline]] inline Line line_near(const StripNode<T>& node) const {
     const T& radius = node.greatest_radius;
     const T y = node.centre - radius * (node.slope * fold_);
     const T lateral =
         placement_.position_rail.y() + y * placement_.cos_roll + radius * placement_.sin_roll;
-    if (lines_.is_flat_at(lateral)) return line(lines_.over(lateral));
-    return line(lines_.near(lateral, T(placement_.position_rail.z() + y * placement_.sin_roll -
-                                       radius * placement_.cos_roll)));
+    return line(lines_.over(lateral));
   }
 
   [[nodiscard, gnu::always_inline]] inline Line line(const SupportingLine<T>& line) const {
