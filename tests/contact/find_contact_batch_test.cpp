@@ -276,7 +276,7 @@ TEST_CASE("find_contacts: neither order nor size nor threads change a bit", "[co
       CHECK(difference_count(expected, sorted) == 0);
     }
   }
-  for (const std::size_t size : {1U, 2U, 7U, 8U, 9U, 15U, 16U, 17U, 31U, 255U, 256U, 257U}) {
+  for (const std::size_t size : {1U, 2U, 7U, 8U, 9U, 15U, 16U, 17U, 31U, 63U, 64U, 65U, 257U}) {
     const std::vector<WheelPlacement<double>> few(
         placements.begin(), placements.begin() + static_cast<std::ptrdiff_t>(size));
     const auto found = find_contacts(pair.wheel, pair.rail, batch_of(few));

@@ -95,6 +95,21 @@ TEST_CASE("SupportingLines: each touches the profile where it is asked for, up t
   CHECK(steep > 20);
 }
 
+TEST_CASE("SupportingLines: over_each is over in each lane", "[surface]") {
+  const auto profile = uic50<double>();
+  const SupportingLines<double> lines(profile);
+  detail::Lanes<double> lateral;
+  for (int block = 0; block < 100; ++block) {
+    for (int lane = 0; lane < detail::lane_count; ++lane) {
+      lateral[lane] = -0.04 + 0.08 * (block * detail::lane_count + lane) / 1600;
+    }
+    lines.over_each(lateral, [&](int lane, const SupportingLine<double>& line) {
+      CAPTURE(lateral[lane]);
+      CHECK(&line == &lines.over(lateral[lane]));
+    });
+  }
+}
+
 TEST_CASE("Rail: a convex one has supporting lines", "[surface]") {
   const Rail<RailHead<double>> rail(uic50<double>());
   CHECK(rail.is_convex());

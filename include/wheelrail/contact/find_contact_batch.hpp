@@ -16,6 +16,28 @@ namespace wheelrail {
 
 namespace detail {
 
+// `indices` nearly in the order of their keys: by the class that a key falls into, among as many of
+// equal width as there are indices.
+template <Real T>
+[[nodiscard]] std::vector<std::size_t> nearly_sorted(const std::vector<std::size_t>& indices,
+                                                     const std::vector<T>& keys) {
+  T least = T(1) / epsilon<T>(), greatest = -least;
+  for (const std::size_t index : indices) {
+    least = min(least, keys[index]);
+    greatest = max(greatest, keys[index]);
+  }
+  const std::size_t count = indices.size();
+  const T per_key = least < greatest ? T(T(static_cast<int>(count)) / (greatest - least)) : T(0);
+  const auto class_of = [&](std::size_t index) {
+    return std::min(count - 1, static_cast<std::size_t>((keys[index] - least) * per_key));
+  };
+  std::vector<std::size_t> begin(count + 1, 0), sorted(count);
+  for (const std::size_t index : indices) ++begin[class_of(index) + 1];
+  for (std::size_t i = 1; i <= count; ++i) begin[i] += begin[i - 1];
+  for (const std::size_t index : indices) sorted[begin[class_of(index)]++] = index;
+  return sorted;
+}
+
 // Searches the placements from `begin` to `end`, block by block; results[i] becomes that of placement
 // i. Neighbours across the track go into one block's lanes: they leave out the same of the wheel.
 template <Profile P, Profile R>
@@ -30,26 +52,21 @@ void find_contacts_between(const Wheel<P>& wheel, const Rail<R>& rail,
     }
     return;
   }
-  std::vector<std::pair<T, std::size_t>> order;  // lateral position and index
-  order.reserve(end - begin);
+  std::vector<std::size_t> searched;
+  searched.reserve(end - begin);
   for (std::size_t i = begin; i < end; ++i) {
     if (is_finite(options.penetration_threshold) && is_finite_placement(placements.at(i))) {
-      order.emplace_back(placements.lateral_rail()[i], i);
+      searched.push_back(i);
     } else {
       results[i] = ContactResult<T>();
       results[i].status = SearchStatus::not_finite;
     }
   }
-  std::sort(order.begin(), order.end(),
-            [](const auto& one, const auto& other) { return one.first < other.first; });
+  const std::vector<std::size_t> order = nearly_sorted(searched, placements.lateral_rail());
   BlockWalk<P, R> walk(wheel, rail, placements, options);
-  std::vector<std::size_t> block;
-  block.reserve(walk.greatest_size);
   for (std::size_t first = 0; first < order.size(); first += walk.greatest_size) {
-    const std::size_t last = std::min(order.size(), first + walk.greatest_size);
-    block.clear();
-    for (std::size_t i = first; i < last; ++i) block.push_back(order[i].second);
-    walk.run(block, results);
+    const std::size_t size = std::min(order.size() - first, walk.greatest_size);
+    walk.run(std::span(order).subspan(first, size), results);
   }
 }
 

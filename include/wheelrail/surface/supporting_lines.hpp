@@ -4,6 +4,7 @@
 /// above one of them does not touch the rail. May include: core, numerics, profile.
 
 #include <vector>
+#include <wheelrail/core/detail/lanes.hpp>
 #include <wheelrail/core/vector.hpp>
 #include <wheelrail/profile/profile.hpp>
 
@@ -57,6 +58,15 @@ class SupportingLines {
       }
     }
     return lines_[static_cast<std::size_t>(low)];
+  }
+
+  /// That of each lane: visit(lane, line).
+  template <class Visit>
+  void over_each(const detail::Lanes<T>& lateral, const Visit& visit) const {
+    const detail::Lanes<T> place = ((lateral - lower_) * per_lateral_).max(T(0)).min(T(count - 1));
+    for (int lane = 0; lane < detail::lane_count; ++lane) {
+      visit(lane, lines_[static_cast<std::size_t>(static_cast<int>(place[lane]))]);
+    }
   }
 
  private:

@@ -8,6 +8,8 @@
 
 #include <span>
 #include <vector>
+#include <wheelrail/contact/detail/first_guess_lanes.hpp>
+#include <wheelrail/contact/detail/judge_lanes.hpp>
 #include <wheelrail/contact/detail/near_run_lanes.hpp>
 #include <wheelrail/contact/detail/near_runs.hpp>
 #include <wheelrail/contact/find_contact.hpp>
@@ -19,7 +21,7 @@ class BlockWalk {
  public:
   using T = typename P::Scalar;
   // So many placements make full lanes, and what is known of them stays in a cache.
-  static constexpr std::size_t greatest_size = 256;
+  static constexpr std::size_t greatest_size = 64;
 
   BlockWalk(const Wheel<P>& wheel, const Rail<R>& rail, const PlacementBatch<T>& placements,
             const SearchOptions<T>& options)
@@ -27,12 +29,13 @@ class BlockWalk {
         rail_(rail),
         placements_(placements),
         options_(options),
-        margin_(T(64) * epsilon<T>() * wheel.nominal_radius()) {
+        margin_(T(64) * epsilon<T>() * wheel.nominal_radius()),
+        bounds_(rail, wheel.strips().greatest_radius(),
+                T(options.penetration_threshold - margin_)) {
     grid_ = newton_grid(wheel);
     items_.reserve(greatest_size);
-    bounds_.reserve(greatest_size);
-    strips_.reserve(16 * greatest_size);
-    parts_.reserve(16 * greatest_size);
+    strips_.reserve(8 * greatest_size);
+    parts_.reserve(8 * greatest_size);
     extrema_.reserve(4 * greatest_size);
     zones_.reserve(4 * greatest_size);
     ends_.reserve(8 * greatest_size);
@@ -41,17 +44,12 @@ class BlockWalk {
   // Searches the placements of these indices; results[i] becomes that of placement i.
   void run(std::span<const std::size_t> indices, std::span<ContactResult<T>> results) {
     items_.clear();
-    bounds_.clear();
     strips_.clear();
     parts_.clear();
     extrema_.clear();
     zones_.clear();
     ends_.clear();
-    for (const std::size_t index : indices) {
-      items_.push_back({index});
-      bounds_.emplace_back(rail_, wheel_.strips().greatest_radius(), placements_.at(index),
-                           T(options_.penetration_threshold - margin_));
-    }
+    for (const std::size_t index : indices) items_.push_back({index, {placements_, index}});
     find_near_runs();
     judge_parts();
     for (const Part& part : parts_) ask_for_extremum(part);
@@ -67,7 +65,8 @@ class BlockWalk {
 
   // A placement.
   struct Item {
-    std::size_t index = 0;                  // in the batch
+    std::size_t index;  // in the batch
+    SectionPlacement<T> placement;
     int first_run = none, last_run = none;  // parts
     int evaluations = 0;
     bool is_left = false;  // to the search of one
@@ -120,7 +119,7 @@ class BlockWalk {
     for (std::size_t begin = 0; begin < items_.size(); begin += lane_count) {
       const int used = lanes_used(begin, items_.size());
       for (int lane = 0; lane < lane_count; ++lane) {
-        placements.set(lane, placements_, items_[in_lane(begin, lane, items_.size())].index);
+        placements.set(lane, items_[in_lane(begin, lane, items_.size())].placement);
       }
       for_each_near_run(wheel_, rail_, placements, T(options_.penetration_threshold - margin_),
                         [&](int lane, int first, int last) {
@@ -145,7 +144,29 @@ class BlockWalk {
     for (std::size_t judged = 0; judged < parts_.size();) {
       evaluate_strips(evaluated);
       evaluated = strips_.size();
-      for (const std::size_t end = parts_.size(); judged < end; ++judged) judge(judged);
+      const std::size_t end = parts_.size();
+      for (; judged < end; judged = std::min(end, judged + lane_count)) judge(judged, end);
+    }
+  }
+
+  // The parts of a lane each, from `begin` on, of those before `end`.
+  void judge(std::size_t begin, std::size_t end) {
+    PlacementLanes<T> placements;
+    LocusStripLanes<T> left, right;
+    ShapeBoundsLanes<T> shape;
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const Part& part = parts_[in_lane(begin, lane, end)];
+      placements.set(lane, items_[part.item].placement);
+      left.set(lane, strips_[part.left].strip);
+      right.set(lane, strips_[part.right].strip);
+      shape.set(lane, wheel_.strips().shape_between(part.first, part.last));
+    }
+    const VerdictLanes<T> found = bounds_.judge(placements, left, right, shape);
+    for (int lane = 0; lane < lanes_used(begin, end); ++lane) {
+      const std::size_t index = begin + at(lane);
+      if (items_[parts_[index].item].is_left) continue;
+      parts_[index].verdict = found.verdict(lane);
+      if (parts_[index].verdict == Verdict::open) take_open(index);
     }
   }
 
@@ -159,7 +180,7 @@ class BlockWalk {
       for (int lane = 0; lane < lane_count; ++lane) {
         const StripOf& wanted = strips_[in_lane(begin, lane, strips_.size())];
         const Strip<T>& strip = of_wheel[at(wanted.index)];
-        placements.set(lane, placements_, items_[wanted.item].index);
+        placements.set(lane, items_[wanted.item].placement);
         lateral[lane] = strip.lateral;
         point.value[lane] = strip.point.value;
         point.slope[lane] = strip.point.slope;
@@ -174,19 +195,15 @@ class BlockWalk {
     }
   }
 
-  void judge(std::size_t index) {
+  // A part of which nothing is known.
+  void take_open(std::size_t index) {
     Part& part = parts_[index];
     Item& item = items_[part.item];
-    if (item.is_left) return;
-    const Judged &left = strips_[part.left].strip, &right = strips_[part.right].strip;
-    part.verdict = bounds_[part.item]
-                       .judge(left, right, wheel_.strips().shape_between(part.first, part.last))
-                       .verdict;
-    if (part.verdict != Verdict::open) return;
     if (part.first + 1 < part.last) {
       divide(index);
       return;
     }
+    const Judged &left = strips_[part.left].strip, &right = strips_[part.right].strip;
     const WheelPlacement<T> placement = placements_.at(item.index);
     const NearRuns<P, R> near(wheel_, rail_, placement,
                               T(options_.penetration_threshold - margin_));
@@ -224,17 +241,15 @@ class BlockWalk {
   void solve_extrema() {
     PlacementLanes<T> placements;
     ProfileLanes<P> profile(wheel_.profile());
-    Lanes<T> lower, upper, rising, start;
+    LocusStripLanes<T> lower, upper;  // ends of parts
     for (std::size_t begin = 0; begin < extrema_.size(); begin += lane_count) {
       for (int lane = 0; lane < lane_count; ++lane) {
         const Part& part = parts_[extrema_[in_lane(begin, lane, extrema_.size())]];
         const Judged &left = strips_[part.left].strip, &right = strips_[part.right].strip;
-        placements.set(lane, placements_, items_[part.item].index);
+        placements.set(lane, items_[part.item].placement);
         profile.set(lane, left.piece);
-        lower[lane] = left.wheel_lateral;
-        upper[lane] = right.wheel_lateral;
-        rising[lane] = T(left.slope < T(0) ? 1 : 0);
-        start[lane] = extremum_guess(left, right, options_.penetration_threshold);
+        lower.set(lane, left);
+        upper.set(lane, right);
       }
       LocusStripLanes<T> found;
       Lanes<T> exist = Lanes<T>::Constant(T(1));
@@ -245,7 +260,9 @@ class BlockWalk {
             value = found.slope;
             slope = found.slope_rate;
           },
-          lower, upper, rising, start, grid_, T(T(4) * epsilon<T>()));
+          lower.wheel_lateral, upper.wheel_lateral, less<T>(lower.slope, Lanes<T>::Zero()),
+          extremum_guess<T>(lower, upper, options_.penetration_threshold), grid_,
+          T(T(4) * epsilon<T>()));
       for (int lane = 0; lane < lanes_used(begin, extrema_.size()); ++lane) {
         Part& part = parts_[extrema_[begin + at(lane)]];
         take_root(root, exist, lane, items_[part.item]);
@@ -346,17 +363,17 @@ class BlockWalk {
   void solve_ends() {
     PlacementLanes<T> placements;
     ProfileLanes<P> profile(wheel_.profile());
-    Lanes<T> lower, upper, rising, start;
+    LocusStripLanes<T> lower, upper;
+    Lanes<T> rising;
     for (std::size_t begin = 0; begin < ends_.size(); begin += lane_count) {
       for (int lane = 0; lane < lane_count; ++lane) {
         const ZoneEnd& end = ends_[in_lane(begin, lane, ends_.size())];
         const Judged &left = strips_[end.left].strip, &right = strips_[end.right].strip;
-        placements.set(lane, placements_, items_[zones_[end.zone].item].index);
+        placements.set(lane, items_[zones_[end.zone].item].placement);
         profile.set(lane, left.piece);
-        lower[lane] = left.wheel_lateral;
-        upper[lane] = right.wheel_lateral;
+        lower.set(lane, left);
+        upper.set(lane, right);
         rising[lane] = T(end.is_lower ? 1 : 0);
-        start[lane] = boundary_guess(left, right, !end.is_lower, options_.penetration_threshold);
       }
       Lanes<T> exist = Lanes<T>::Constant(T(1));
       const auto root = bracketed_newton_lanes<T>(
@@ -366,7 +383,9 @@ class BlockWalk {
             value = found.penetration - options_.penetration_threshold;
             slope = found.slope;
           },
-          lower, upper, rising, start, grid_, T(margin_ / T(16)));
+          lower.wheel_lateral, upper.wheel_lateral, rising,
+          boundary_guess<T>(lower, upper, T(1) - rising, options_.penetration_threshold), grid_,
+          T(margin_ / T(16)));
       for (int lane = 0; lane < lanes_used(begin, ends_.size()); ++lane) {
         const ZoneEnd& end = ends_[begin + at(lane)];
         Zone& zone = zones_[end.zone];
@@ -385,23 +404,7 @@ class BlockWalk {
       result.evaluations = item.evaluations;
       result.is_proved = is_proved;
     }
-    for (const Zone& zone : zones_) {
-      const Item& item = items_[zone.item];
-      if (item.is_left) continue;
-      ContactResult<T>& result = results[item.index];
-      const Judged& deepest = strips_[zone.deepest].strip;
-      const WheelPlacement<T> placement = placements_.at(item.index);
-      Patch<T> patch =
-          patch_on_strip(wheel_, rail_, placement, deepest.piece, deepest.wheel_lateral);
-      patch.zone_lower = zone.lower;
-      patch.zone_upper = zone.upper;
-      patch.zone_is_cut = zone.is_cut;
-      ++result.evaluations;
-      if (options_.maximum_penetration < patch.penetration) {
-        result.status = SearchStatus::too_deep;
-      }
-      if (!result.patches.push_back(patch)) result.status = SearchStatus::too_many_patches;
-    }
+    add_patches(results);
     for (const Item& item : items_) {
       if (!item.is_left) continue;
       results[item.index] =
@@ -410,14 +413,56 @@ class BlockWalk {
     }
   }
 
+  // As patch_on_strip has them; all but the locus and its foot is done one by one.
+  void add_patches(std::span<ContactResult<T>> results) {
+    PlacementLanes<T> placements;
+    ProfileLanes<P> profile(wheel_.profile());
+    Lanes<T> lateral;
+    for (std::size_t begin = 0; begin < zones_.size(); begin += lane_count) {
+      for (int lane = 0; lane < lane_count; ++lane) {
+        const Zone& zone = zones_[in_lane(begin, lane, zones_.size())];
+        const Judged& deepest = strips_[zone.deepest].strip;
+        placements.set(lane, items_[zone.item].placement);
+        profile.set(lane, deepest.piece);
+        lateral[lane] = deepest.wheel_lateral;
+      }
+      const ProfilePointLanes<T> point = profile.evaluate(lateral);
+      const LocusPointLanes<T> locus = locus_points(wheel_, placements, lateral, point);
+      const ClosestPointLanes<T> foot = rail_feet(rail_.profile(), locus.lateral, locus.up);
+      for (int lane = 0; lane < lanes_used(begin, zones_.size()); ++lane) {
+        const Zone& zone = zones_[begin + at(lane)];
+        const Item& item = items_[zone.item];
+        if (item.is_left) continue;
+        const int piece = strips_[zone.deepest].strip.piece;
+        ContactResult<T>& result = results[item.index];
+        ++result.evaluations;
+        if (options_.maximum_penetration < foot.penetration[lane]) {
+          result.status = SearchStatus::too_deep;
+        }
+        const bool has_room = result.patches.push_back_made([&] {
+          Patch<T> patch = patch_at(
+              wheel_, rail_, placements_.at(item.index), piece, lateral[lane],
+              {point.value[lane], point.slope[lane], point.second_derivative[lane]},
+              {locus.sine[lane], locus.cosine[lane]}, foot.lateral[lane],
+              {T(0), foot.normal_lateral[lane], foot.normal_up[lane]}, foot.penetration[lane]);
+          patch.zone_lower = zone.lower;
+          patch.zone_upper = zone.upper;
+          patch.zone_is_cut = zone.is_cut;
+          return patch;
+        });
+        if (!has_room) result.status = SearchStatus::too_many_patches;
+      }
+    }
+  }
+
   const Wheel<P>& wheel_;
   const Rail<R>& rail_;
   const PlacementBatch<T>& placements_;
   const SearchOptions<T>& options_;
   T margin_;  // as in StripWalk
+  PenetrationBoundsLanes<R> bounds_;
   T grid_ = T(0);
   std::vector<Item> items_;
-  std::vector<PenetrationBounds<R>> bounds_;  // of each item
   std::vector<StripOf> strips_;
   std::vector<Part> parts_;
   std::vector<std::size_t> extrema_;  // parts

@@ -17,19 +17,19 @@ template <Profile P>
   return min(T(T(4) * sqrt(epsilon<T>()) * wheel.nominal_radius()), constant<T>(1e-4L));
 }
 
-// A cubic c0 + c1 t + c2 t^2 + c3 t^3.
-template <Real T>
+// A cubic c0 + c1 t + c2 t^2 + c3 t^3 in numbers of V, scalars T or lanes of them.
+template <class V, Real T = V>
 struct Cubic {
-  T c0 = T(0), c1 = T(0), c2 = T(0), c3 = T(0);
+  V c0{}, c1{}, c2{}, c3{};
 
-  [[nodiscard]] T value(const T& t) const { return c0 + t * (c1 + t * (c2 + t * c3)); }
-  [[nodiscard]] T slope(const T& t) const { return c1 + t * (T(2) * c2 + t * T(3) * c3); }
+  [[nodiscard]] V value(const V& t) const { return c0 + t * (c1 + t * (c2 + t * c3)); }
+  [[nodiscard]] V slope(const V& t) const { return c1 + t * (T(2) * c2 + t * T(3) * c3); }
   // Two Newton steps from t.
-  [[nodiscard]] T near_root(T t) const {
+  [[nodiscard]] V near_root(V t) const {
     for (int i = 0; i < 2; ++i) t -= value(t) / slope(t);
     return t;
   }
-  [[nodiscard]] T near_extremum(T t) const {
+  [[nodiscard]] V near_extremum(V t) const {
     for (int i = 0; i < 2; ++i) t -= slope(t) / (T(2) * c2 + t * T(6) * c3);
     return t;
   }

@@ -42,19 +42,34 @@ template <Profile R>
   }
 }
 
-// The placement of each lane.
+// What the locus needs of a placement.
+template <Real T>
+struct SectionPlacement {
+  T lateral_rail, up_rail, sin_yaw, cos_yaw, tan_yaw, sin_roll, cos_roll;
+
+  SectionPlacement(const PlacementBatch<T>& placements, std::size_t index)
+      : lateral_rail(placements.lateral_rail()[index]),
+        up_rail(placements.up_rail()[index]),
+        sin_yaw(placements.sin_yaw()[index]),
+        cos_yaw(placements.cos_yaw()[index]),
+        tan_yaw(placements.tan_yaw()[index]),
+        sin_roll(placements.sin_roll()[index]),
+        cos_roll(placements.cos_roll()[index]) {}
+};
+
+// That of each lane.
 template <Real T>
 struct PlacementLanes {
   Lanes<T> lateral_rail, up_rail, sin_yaw, cos_yaw, tan_yaw, sin_roll, cos_roll;
 
-  void set(int lane, const PlacementBatch<T>& placements, std::size_t index) {
-    lateral_rail[lane] = placements.lateral_rail()[index];
-    up_rail[lane] = placements.up_rail()[index];
-    sin_yaw[lane] = placements.sin_yaw()[index];
-    cos_yaw[lane] = placements.cos_yaw()[index];
-    tan_yaw[lane] = placements.tan_yaw()[index];
-    sin_roll[lane] = placements.sin_roll()[index];
-    cos_roll[lane] = placements.cos_roll()[index];
+  void set(int lane, const SectionPlacement<T>& placement) {
+    lateral_rail[lane] = placement.lateral_rail;
+    up_rail[lane] = placement.up_rail;
+    sin_yaw[lane] = placement.sin_yaw;
+    cos_yaw[lane] = placement.cos_yaw;
+    tan_yaw[lane] = placement.tan_yaw;
+    sin_roll[lane] = placement.sin_roll;
+    cos_roll[lane] = placement.cos_roll;
   }
 };
 
@@ -64,6 +79,16 @@ struct LocusStripLanes {
   Lanes<T> wheel_lateral, rail_lateral, penetration, slope, slope_rate, normal_lateral, normal_up;
   Lanes<T> exists;  // flag
 
+  void set(int lane, const LocusStrip<T>& strip) {
+    wheel_lateral[lane] = strip.wheel_lateral;
+    rail_lateral[lane] = strip.rail_lateral;
+    penetration[lane] = strip.penetration;
+    slope[lane] = strip.slope;
+    slope_rate[lane] = strip.slope_rate;
+    normal_lateral[lane] = strip.normal_rail.x();
+    normal_up[lane] = strip.normal_rail.y();
+    exists[lane] = T(strip.exists ? 1 : 0);
+  }
   // One lane's strip. @param lateral where it is said to be [m]
   [[nodiscard]] LocusStrip<T> strip(int lane, int piece, const T& lateral) const {
     LocusStrip<T> result;
@@ -79,51 +104,73 @@ struct LocusStripLanes {
   }
 };
 
-// As locus_point and LocusStrips::at have it, in their order of operations.
+// LocusPoint in lanes, without what only its place along the rail needs.
+template <Real T>
+struct LocusPointLanes {
+  Lanes<T> radius, sine, cosine, inverse_cosine, lateral, up, lateral_rate, up_rate;
+  Lanes<T> exists;  // flag
+};
+
+// As locus_point has it, in its order of operations.
+template <Profile P>
+[[nodiscard]] LocusPointLanes<typename P::Scalar> locus_points(
+    const Wheel<P>& wheel, const PlacementLanes<typename P::Scalar>& at,
+    const Lanes<typename P::Scalar>& u, const ProfilePointLanes<typename P::Scalar>& point) {
+  using T = typename P::Scalar;
+  const Lanes<T>&slope = point.slope, &bend = point.second_derivative;
+  LocusPointLanes<T> locus;
+  locus.radius = wheel.nominal_radius() + point.value;
+  locus.sine = at.tan_yaw * slope;
+  const Lanes<T> cosine_squared = T(1) - locus.sine * locus.sine;
+  locus.exists = less<T>(all_lanes(T(0)), cosine_squared);
+  locus.cosine = cosine_squared.sqrt();
+  const Lanes<T> fold = at.sin_yaw * at.tan_yaw;
+  const Lanes<T> y = u * at.cos_yaw - locus.radius * slope * fold;
+  const Lanes<T> z = -locus.radius * locus.cosine;
+  const Lanes<T> y_rate = at.cos_yaw - (slope * slope + locus.radius * bend) * fold;
+  locus.inverse_cosine = T(1) / locus.cosine;
+  const Lanes<T> z_rate =
+      -slope * locus.cosine + locus.radius * at.tan_yaw * locus.sine * bend * locus.inverse_cosine;
+  locus.lateral = at.lateral_rail + at.cos_roll * y - at.sin_roll * z;
+  locus.up = at.up_rail + at.sin_roll * y + at.cos_roll * z;
+  locus.lateral_rate = at.cos_roll * y_rate - at.sin_roll * z_rate;
+  locus.up_rate = at.sin_roll * y_rate + at.cos_roll * z_rate;
+  return locus;
+}
+
+// As LocusStrips::at has it, in its order of operations.
 template <Profile P, Profile R>
 [[nodiscard]] LocusStripLanes<typename P::Scalar> locus_strips(
     const Wheel<P>& wheel, const Rail<R>& rail, const PlacementLanes<typename P::Scalar>& at,
     const Lanes<typename P::Scalar>& u, const ProfilePointLanes<typename P::Scalar>& point) {
   using T = typename P::Scalar;
+  const LocusPointLanes<T> locus = locus_points(wheel, at, u, point);
   const Lanes<T>&slope = point.slope, &bend = point.second_derivative;
-  const Lanes<T> radius = wheel.nominal_radius() + point.value;
-  const Lanes<T> sine = at.tan_yaw * slope;
-  const Lanes<T> cosine_squared = T(1) - sine * sine;
-  const Lanes<T> cosine = cosine_squared.sqrt();
-  const Lanes<T> fold = at.sin_yaw * at.tan_yaw;
-  const Lanes<T> y = u * at.cos_yaw - radius * slope * fold;
-  const Lanes<T> z = -radius * cosine;
-  const Lanes<T> y_rate = at.cos_yaw - (slope * slope + radius * bend) * fold;
-  const Lanes<T> inverse_cosine = T(1) / cosine;
-  const Lanes<T> z_rate = -slope * cosine + radius * at.tan_yaw * sine * bend * inverse_cosine;
-  const Lanes<T> lateral = at.lateral_rail + at.cos_roll * y - at.sin_roll * z;
-  const Lanes<T> up = at.up_rail + at.sin_roll * y + at.cos_roll * z;
-  const Lanes<T> lateral_rate = at.cos_roll * y_rate - at.sin_roll * z_rate;
-  const Lanes<T> up_rate = at.sin_roll * y_rate + at.cos_roll * z_rate;
-
-  const ClosestPointLanes<T> foot = rail_feet(rail.profile(), lateral, up);
+  const Lanes<T>& inverse_cosine = locus.inverse_cosine;
+  const ClosestPointLanes<T> foot = rail_feet(rail.profile(), locus.lateral, locus.up);
   const Lanes<T>&n_y = foot.normal_lateral, &n_z = foot.normal_up;
   const Lanes<T> steepness = slope * slope;
   const Lanes<T> squared_tan_yaw = at.tan_yaw * at.tan_yaw;
   const Lanes<T> y_bend = T(-3) * squared_tan_yaw * at.cos_yaw * slope * bend;
   const Lanes<T> z_bend =
-      -bend * cosine + squared_tan_yaw * bend * inverse_cosine *
-                           (T(2) * steepness + radius * bend * inverse_cosine * inverse_cosine);
-  const Lanes<T> along = n_z * lateral_rate - n_y * up_rate;
+      -bend * locus.cosine +
+      squared_tan_yaw * bend * inverse_cosine *
+          (T(2) * steepness + locus.radius * bend * inverse_cosine * inverse_cosine);
+  const Lanes<T> along = n_z * locus.lateral_rate - n_y * locus.up_rate;
   LocusStripLanes<T> result;
   result.wheel_lateral = u;
   result.rail_lateral = foot.lateral;
   result.penetration = foot.penetration;
   result.normal_lateral = n_y;
   result.normal_up = n_z;
-  result.slope = -(n_y * lateral_rate + n_z * up_rate);
+  result.slope = -(n_y * locus.lateral_rate + n_z * locus.up_rate);
   result.slope_rate = -(n_y * at.cos_roll + n_z * at.sin_roll) * y_bend -
                       (n_z * at.cos_roll - n_y * at.sin_roll) * z_bend -
                       foot.curvature / (T(1) - foot.curvature * foot.penetration) * along * along;
   const Lanes<T> is_beyond = less<T>(foot.lateral, all_lanes(rail.profile().lower()))
                                  .max(less<T>(all_lanes(rail.profile().upper()), foot.lateral));
-  result.exists = less<T>(all_lanes(T(0)), cosine_squared) * finite<T>(result.penetration) *
-                  finite<T>(result.slope) * (T(1) - is_beyond);
+  result.exists =
+      locus.exists * finite<T>(result.penetration) * finite<T>(result.slope) * (T(1) - is_beyond);
   return result;
 }
 

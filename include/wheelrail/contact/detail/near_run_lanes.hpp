@@ -7,6 +7,38 @@
 
 namespace wheelrail::detail {
 
+// How many strips near_part leaves off both ends of a node in each lane.
+template <Real T>
+struct NearPartLanes {
+  std::array<int, lane_count> left_off_first, left_off_last;
+};
+
+// near_part in lanes, by the parts of LineAbove. The bound is linear: what is above the line where it
+// rises is all from the first strip on.
+template <Real T>
+[[nodiscard]] NearPartLanes<T> near_parts(const StripTree<T>& tree, const StripNode<T>& node,
+                                          const Lanes<T>& along, const Lanes<T>& across,
+                                          const Lanes<T>& height, const Lanes<T>& limit) {
+  const Lanes<T> zero = Lanes<T>::Zero(), lean = node.slope * across - along;
+  const Lanes<T> excess = height - node.centre * along + node.greatest_radius * across - limit;
+  Lanes<T> first = zero, last = zero;
+  for (int strip = node.first; strip <= node.last; ++strip) {
+    const T from_centre = tree.strips()[static_cast<std::size_t>(strip)].lateral - node.centre;
+    const Lanes<T> is_above = less<T>(excess + lean * from_centre, zero);
+    if (node.first < strip) first += is_above;
+    if (strip < node.last) last += is_above;
+  }
+  const Lanes<T> rises = less<T>(zero, lean);
+  first *= rises;
+  last *= T(1) - rises;
+  NearPartLanes<T> parts;
+  for (std::size_t i = 0; i < lane_count; ++i) {
+    parts.left_off_first[i] = static_cast<int>(first[static_cast<int>(i)]);
+    parts.left_off_last[i] = static_cast<int>(last[static_cast<int>(i)]);
+  }
+  return parts;
+}
+
 // Calls visit(lane, first, last) for the runs of each lane as NearRuns::for_each does for one
 // placement, without a clearance. threshold: as there [m].
 template <Profile P, Profile R, class Visit>
@@ -37,6 +69,10 @@ void for_each_near_run(const Wheel<P>& wheel, const Rail<R>& rail,
   };
   for (std::size_t index = 0; index < nodes.size();) {
     const StripNode<T>& node = nodes[index];
+    if (widest < node.last - node.first && finest_node < node.last - node.first) {
+      ++index;  // into what all lanes look at, as at everything above it
+      continue;
+    }
     const T place = T(static_cast<int>(index)), skip = T(static_cast<int>(node.skip));
     const Lanes<T> looks = T(1) - less<T>(all_lanes(place), resume);
     const bool is_tested = node.last - node.first <= widest;
@@ -47,13 +83,12 @@ void for_each_near_run(const Wheel<P>& wheel, const Rail<R>& rail,
       const T& radius = node.greatest_radius;
       const Lanes<T> y = node.centre - radius * (node.slope * fold);
       Lanes<T> normal_lateral, normal_up, line_height;
-      const Lanes<T> lateral = at.lateral_rail + y * at.cos_roll + radius * at.sin_roll;
-      for (int lane = 0; lane < lane_count; ++lane) {
-        const SupportingLine<T>& line = lines.over(lateral[lane]);
-        normal_lateral[lane] = line.normal.x();
-        normal_up[lane] = line.normal.y();
-        line_height[lane] = line.height;
-      }
+      lines.over_each(at.lateral_rail + y * at.cos_roll + radius * at.sin_roll,
+                      [&](int lane, const SupportingLine<T>& line) {
+                        normal_lateral[lane] = line.normal.x();
+                        normal_up[lane] = line.normal.y();
+                        line_height[lane] = line.height;
+                      });
       const Lanes<T> new_along = normal_lateral * axle_lateral + normal_up * axle_up;
       along = choose<T>(is_kept, new_along, along);
       const Lanes<T> other = normal_lateral * axle_up - normal_up * axle_lateral;
@@ -67,11 +102,13 @@ void for_each_near_run(const Wheel<P>& wheel, const Rail<R>& rail,
     Lanes<T> goes_down = is_kept;
     if (is_any_kept && node.is_in_one_piece && node.last - node.first <= finest_node) {
       goes_down = is_kept * less<T>(finest, all_lanes(T(node.last - node.first)));
+      const NearPartLanes<T> parts =
+          near_parts<T>(wheel.strips(), node, along, across, height, limit);
       for (int lane = 0; lane < lane_count; ++lane) {
         if (!(goes_down[lane] < is_kept[lane])) continue;
         const auto i = static_cast<std::size_t>(lane);
-        const LineAbove<T> line{along[lane], across[lane], height[lane]};
-        const StripRange part = near_part(wheel.strips(), node, line, threshold);
+        const StripRange part{node.first + parts.left_off_first[i],
+                              node.last - parts.left_off_last[i]};
         if (part.first != last[i]) {
           if (first[i] != last[i]) visit(lane, first[i], last[i]);
           first[i] = part.first;

@@ -5,7 +5,9 @@
 // is `or`. May include: core, Eigen, std.
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
+#include <type_traits>
 #include <wheelrail/core/scalar.hpp>
 
 namespace wheelrail::detail {
@@ -98,9 +100,20 @@ template <Real T>
                       all_lanes(T(0)), flags, then, otherwise);
 }
 
+// Whether there is a flag that is one. Without a branch for each lane, and bits are quicker put
+// together than numbers.
 template <Real T>
 [[nodiscard, gnu::always_inline]] inline bool any(const Lanes<T>& flags) {
-  return T(0) < flags.maxCoeff();
+  if constexpr (0 < vector_size<T>) {
+    using Bits =
+        std::conditional_t<sizeof(T) == sizeof(std::uint64_t), std::uint64_t, std::uint32_t>;
+    Bits bits[lane_count], all = 0;
+    std::memcpy(bits, flags.data(), sizeof(bits));
+    for (int lane = 0; lane < lane_count; ++lane) all |= bits[lane];
+    return all != 0;
+  } else {
+    return T(0) < flags.maxCoeff();
+  }
 }
 
 }  // namespace wheelrail::detail
