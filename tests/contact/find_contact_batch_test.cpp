@@ -80,7 +80,7 @@ PlacementBatch<T> batch_of(const std::vector<WheelPlacement<T>>& placements) {
 template <class T>
 struct Difference {
   long placements = 0, others = 0, patches = 0, zones = 0;
-  T penetration = 0, wheel_lateral = 0, end = 0, rest = 0;
+  T penetration = 0, wheel_lateral = 0, end = 0, curvature = 0, rest = 0;
 
   void add(const ContactResult<T>& a, const ContactResult<T>& b, const SearchOptions<T>& options) {
     ++placements;
@@ -96,7 +96,7 @@ struct Difference {
     for (std::size_t k = 0; k < a.patches.size(); ++k) {
       const Patch<T>&p = a.patches[k], &q = b.patches[k];
       ++patches;
-      if (p.zone_is_cut != q.zone_is_cut) ++others;
+      if (p.zone_is_cut != q.zone_is_cut || p.wheel_piece != q.wheel_piece) ++others;
       widen(penetration, p.penetration, q.penetration);
       widen(wheel_lateral, p.wheel_lateral, q.wheel_lateral);
       if (options.zone_ends) {
@@ -111,6 +111,9 @@ struct Difference {
       widen(rest, p.longitudinal, q.longitudinal);
       widen(rest, p.contact_angle, q.contact_angle);
       widen(rest, p.rolling_radius, q.rolling_radius);
+      widen(curvature, p.wheel_longitudinal_curvature, q.wheel_longitudinal_curvature);
+      widen(curvature, p.wheel_lateral_curvature, q.wheel_lateral_curvature);
+      widen(curvature, p.rail_lateral_curvature, q.rail_lateral_curvature);
       for (int i = 0; i < 3; ++i) {
         widen(rest, p.position_rail[i], q.position_rail[i]);
         widen(rest, p.normal_rail[i], q.normal_rail[i]);
@@ -151,7 +154,11 @@ bool is_same(const ContactResult<T>& a, const ContactResult<T>& b) {
           same(p.zone_upper, q.zone_upper) && p.zone_is_cut == q.zone_is_cut &&
           p.position_rail == q.position_rail && p.normal_rail == q.normal_rail &&
           p.longitudinal_rail == q.longitudinal_rail && p.wheel_angle == q.wheel_angle &&
-          p.contact_angle == q.contact_angle;
+          p.contact_angle == q.contact_angle && p.wheel_piece == q.wheel_piece &&
+          p.longitudinal == q.longitudinal && p.rolling_radius == q.rolling_radius &&
+          p.wheel_longitudinal_curvature == q.wheel_longitudinal_curvature &&
+          p.wheel_lateral_curvature == q.wheel_lateral_curvature &&
+          p.rail_lateral_curvature == q.rail_lateral_curvature;
   }
   return all;
 }
@@ -178,6 +185,7 @@ TEST_CASE("find_contacts: what find_contact finds at each of many random placeme
     CHECK(found.penetration <= penetration_rounding<double>());
     CHECK(found.wheel_lateral < 1e-12);
     CHECK(found.rest < 1e-11);
+    CHECK(found.curvature < 1e-9);
     CHECK(found.end < 1e-10);
   }
   SECTION("without the zones' ends") {
@@ -285,6 +293,28 @@ TEST_CASE("find_contacts: neither order nor size nor threads change a bit", "[co
   }
 }
 
+TEST_CASE("nearly_sorted: each index once, keys out of order by less than a class",
+          "[contact][random]") {
+  std::vector<double> keys;
+  std::vector<std::size_t> indices;
+  std::mt19937 random(5);
+  for (std::size_t i = 0; i < 1000; ++i) {
+    keys.push_back(static_cast<double>(random()) / 4294967296.0);
+    if (i % 3 != 0) indices.push_back(i);
+  }
+  keys[1] = 1e300;
+  keys[2] = -1e300;
+  const double least = 0.25, greatest = 0.75;
+  auto sorted = detail::nearly_sorted(indices, keys, least, greatest);
+  REQUIRE(sorted.size() == indices.size());
+  const double width = (greatest - least) / static_cast<double>(indices.size());
+  const auto key = [&](std::size_t i) { return std::clamp(keys[sorted[i]], least, greatest); };
+  for (std::size_t i = 1; i < sorted.size(); ++i) CHECK(key(i - 1) < key(i) + 1.001 * width);
+  std::sort(sorted.begin(), sorted.end());
+  CHECK(sorted == indices);
+  CHECK(detail::nearly_sorted<double>({}, keys, least, greatest).empty());
+}
+
 TEST_CASE("find_contacts: a placement that is not finite spoils its own result only",
           "[contact][bad-input]") {
   const Pair pair;
@@ -295,10 +325,11 @@ TEST_CASE("find_contacts: a placement that is not finite spoils its own result o
   placements[3].position_rail.y() = nan;
   placements[40].sin_yaw = infinity;
   placements[41].cos_roll = nan;
+  placements[60].tan_yaw = nan;
   placements[99].position_rail.x() = -infinity;
   const auto found = find_contacts(pair.wheel, pair.rail, batch_of(placements), {}, 2);
   for (std::size_t i = 0; i < found.size(); ++i) {
-    if (i == 3 || i == 40 || i == 41 || i == 99) {
+    if (i == 3 || i == 40 || i == 41 || i == 60 || i == 99) {
       CHECK(found[i].status == SearchStatus::not_finite);
       CHECK(found[i].patches.empty());
       CHECK_FALSE(found[i].is_proved);

@@ -7,11 +7,13 @@
 #include <wheelrail/contact/detail/judge_lanes.hpp>
 #include <wheelrail/contact/detail/locus_strips.hpp>
 #include <wheelrail/contact/detail/near_run_lanes.hpp>
+#include <wheelrail/contact/find_contact_batch.hpp>
 #include <wheelrail/profile/rail_head.hpp>
 #include <wheelrail/profile/s1002.hpp>
 
 #include "support/catch.hpp"
 #include "support/placed.hpp"
+#include "support/strict_scalar.hpp"
 
 using namespace wheelrail;
 using detail::lane_count;
@@ -66,10 +68,9 @@ struct Pair {
   }
 };
 
-// The same number to the last bit, or but for what fused products and sums round in another way.
-bool is_near(double one, double other, double scale) {
-  return one == other || (std::isnan(one) && std::isnan(other)) ||
-         std::abs(one - other) <= 1e-9 * scale;
+// The same place, but for what fused products and sums round in another way [m].
+bool is_near(double one, double other) {
+  return std::abs(one - other) <= 1e-9 || (std::isnan(one) && std::isnan(other));
 }
 
 }  // namespace
@@ -149,10 +150,9 @@ TEST_CASE("extremum_guess, boundary_guess: in lanes what they are for each", "[c
     for (int lane = 0; lane < lane_count; ++lane) {
       const auto i = static_cast<std::size_t>(lane);
       CAPTURE(block, lane);
-      REQUIRE(is_near(extremum[lane], detail::extremum_guess(lefts[i], rights[i], 0.0), 1.0));
+      REQUIRE(is_near(extremum[lane], detail::extremum_guess(lefts[i], rights[i], 0.0)));
       REQUIRE(is_near(boundary[lane],
-                      detail::boundary_guess(lefts[i], rights[i], 0 < left_is_inside[lane], 0.0),
-                      1.0));
+                      detail::boundary_guess(lefts[i], rights[i], 0 < left_is_inside[lane], 0.0)));
       joints += detail::PenetrationCurve<double>(lefts[i], rights[i], 0.0).joint != 1.0;
     }
   }
@@ -199,7 +199,42 @@ TEST_CASE("near_parts: what near_part leaves off a node's ends, in lanes", "[con
   CHECK(all > 100);
 }
 
-TEST_CASE("any: whether one lane's flag is set", "[core]") {
+TEST_CASE("find_contacts: with a scalar that converts to nothing", "[contact][scalars]") {
+  using wheelrail_test::StrictScalar;
+  const Pair pair;
+  const Wheel<PiecewiseProfile<StrictScalar>> wheel{s1002<StrictScalar>(), StrictScalar(0.43)};
+  const Rail<RailHead<StrictScalar>> rail{uic50<StrictScalar>()};
+  PlacementBatch<double> placements;
+  PlacementBatch<StrictScalar> strict;
+  for (int i = 0; i < 40; ++i) {
+    const double lateral = 1e-3 + 2.5e-4 * i, height = 0.42995 + 2e-6 * i;
+    placements.push_back(wheelrail_test::placed(lateral, height, 5e-3, 1e-3));
+    const auto at = placements.at(static_cast<std::size_t>(i));
+    WheelPlacement<StrictScalar> placement;
+    placement.position_rail = {StrictScalar(0.0), StrictScalar(at.position_rail.y()),
+                               StrictScalar(at.position_rail.z())};
+    placement.sin_yaw = StrictScalar(at.sin_yaw);
+    placement.cos_yaw = StrictScalar(at.cos_yaw);
+    placement.tan_yaw = StrictScalar(at.tan_yaw);
+    placement.sin_roll = StrictScalar(at.sin_roll);
+    placement.cos_roll = StrictScalar(at.cos_roll);
+    strict.push_back(placement);
+  }
+  const auto expected = find_contacts(pair.wheel, pair.rail, placements);
+  const auto found = find_contacts(wheel, rail, strict);
+  std::size_t patches = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    REQUIRE(found[i].patches.size() == expected[i].patches.size());
+    CHECK(found[i].evaluations == expected[i].evaluations);
+    for (std::size_t k = 0; k < expected[i].patches.size(); ++k, ++patches) {
+      CHECK(std::abs(found[i].patches[k].penetration.as_double() -
+                     expected[i].patches[k].penetration) < 1e-15);
+    }
+  }
+  CHECK(patches > 10);
+}
+
+TEST_CASE("any: whether one lane's flag is set", "[contact]") {
   Lanes<double> flags = Lanes<double>::Zero();
   Lanes<float> short_flags = Lanes<float>::Zero();
   CHECK_FALSE(detail::any<double>(flags));

@@ -124,7 +124,7 @@ if [ "$brief" = no ]; then
     mkdir -p -- "$repository"
     cp -R -- "$root/CMakeLists.txt" "$root/include" "$repository"
     try "making a repository" git -C "$repository" init -b main
-    git -C "$repository" add .
+    try "adding to a repository" git -C "$repository" add .
     try "committing to a repository" git -C "$repository" -c user.name=nobody \
       -c user.email=nobody@localhost commit -m "As it is"
     consume fetched -Dwheelrail_source="$repository"

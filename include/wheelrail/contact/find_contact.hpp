@@ -53,7 +53,7 @@ template <Profile P>
   return max(options.depth_tolerance, T(T(64) * epsilon<T>() * wheel.nominal_radius()));
 }
 
-/// The search at work on one wheel and rail: walks the strips and collects the zones.
+/// Walks the strips of one wheel and collects the zones, in a result that would be copied if returned.
 template <Profile P, Profile R>
 class StripWalk {
  public:

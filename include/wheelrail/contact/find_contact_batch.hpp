@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <future>
 #include <span>
-#include <utility>
 #include <vector>
 #include <wheelrail/contact/detail/block_walk.hpp>
 #include <wheelrail/contact/placement_batch.hpp>
@@ -17,25 +16,27 @@ namespace wheelrail {
 namespace detail {
 
 // `indices` nearly in the order of their keys: by the class that a key falls into, among as many of
-// equal width as there are indices.
+// equal width between `least` and `greatest` as there are indices. Those beyond are of the outer ones.
+// Scalars that convert to nothing stay in the order in which they are.
 template <Real T>
 [[nodiscard]] std::vector<std::size_t> nearly_sorted(const std::vector<std::size_t>& indices,
-                                                     const std::vector<T>& keys) {
-  T least = T(1) / epsilon<T>(), greatest = -least;
-  for (const std::size_t index : indices) {
-    least = min(least, keys[index]);
-    greatest = max(greatest, keys[index]);
+                                                     const std::vector<T>& keys, const T& least,
+                                                     const T& greatest) {
+  if constexpr (std::is_floating_point_v<T>) {
+    const std::size_t count = indices.size();
+    const T classes = T(static_cast<int>(count));
+    const auto class_of = [&](std::size_t index) {
+      const T place = classes * clamp(T((keys[index] - least) / (greatest - least)), T(0), T(1));
+      return std::min(count - 1, static_cast<std::size_t>(static_cast<std::ptrdiff_t>(place)));
+    };
+    std::vector<std::size_t> begin(count + 1, 0), sorted(count);
+    for (const std::size_t index : indices) ++begin[class_of(index) + 1];
+    for (std::size_t i = 1; i <= count; ++i) begin[i] += begin[i - 1];
+    for (const std::size_t index : indices) sorted[begin[class_of(index)]++] = index;
+    return sorted;
+  } else {
+    return indices;
   }
-  const std::size_t count = indices.size();
-  const T per_key = least < greatest ? T(T(static_cast<int>(count)) / (greatest - least)) : T(0);
-  const auto class_of = [&](std::size_t index) {
-    return std::min(count - 1, static_cast<std::size_t>((keys[index] - least) * per_key));
-  };
-  std::vector<std::size_t> begin(count + 1, 0), sorted(count);
-  for (const std::size_t index : indices) ++begin[class_of(index) + 1];
-  for (std::size_t i = 1; i <= count; ++i) begin[i] += begin[i - 1];
-  for (const std::size_t index : indices) sorted[begin[class_of(index)]++] = index;
-  return sorted;
 }
 
 // Searches the placements from `begin` to `end`, block by block; results[i] becomes that of placement
@@ -62,7 +63,10 @@ void find_contacts_between(const Wheel<P>& wheel, const Rail<R>& rail,
       results[i].status = SearchStatus::not_finite;
     }
   }
-  const std::vector<std::size_t> order = nearly_sorted(searched, placements.lateral_rail());
+  // Where wheel and rail are over each other.
+  const T least = rail.profile().lower() - wheel.profile().upper();
+  const T greatest = rail.profile().upper() - wheel.profile().lower();
+  const auto order = nearly_sorted(searched, placements.lateral_rail(), least, greatest);
   BlockWalk<P, R> walk(wheel, rail, placements, options);
   for (std::size_t first = 0; first < order.size(); first += walk.greatest_size) {
     const std::size_t size = std::min(order.size() - first, walk.greatest_size);
@@ -91,10 +95,10 @@ template <Profile P, Profile R>
     std::vector<ContactResult<typename P::Scalar>> results = {}) {
   detail::require(1 <= threads, "find_contacts: there must be at least one thread");
   results.resize(placements.size());
-  constexpr std::size_t block = detail::BlockWalk<P, R>::greatest_size;
+  constexpr std::size_t least_share = 256;  // fewer are searched sooner than a thread starts
   const std::size_t count = placements.size();
-  const std::size_t shares =
-      std::clamp((count + block - 1) / block, std::size_t{1}, static_cast<std::size_t>(threads));
+  const std::size_t shares = std::clamp((count + least_share - 1) / least_share, std::size_t{1},
+                                        static_cast<std::size_t>(threads));
   const auto search_share = [&](std::size_t share) {
     detail::find_contacts_between(wheel, rail, placements, count * share / shares,
                                   count * (share + 1) / shares, results, options);

@@ -17,8 +17,8 @@ struct SupportingLine {
   T height = T(0);                ///< [m]
 };
 
-/// Tangents of a convex profile, at places across it where it is no steeper than `steepest`. Beyond,
-/// the last of them tells enough.
+/// Tangents of a convex profile, at places across it where it is no steeper than `steepest` (72 degrees,
+/// a usual flange's). Beyond, the last one stands for all: steeper ones saved no strips of a search.
 template <Real T>
 class SupportingLines {
  public:
@@ -33,7 +33,7 @@ class SupportingLines {
   explicit SupportingLines(const P& profile) : lower_(where_slope_is(profile, T(steepest))) {
     using std::sqrt;
     const T width = where_slope_is(profile, T(-steepest)) - lower_;
-    per_lateral_ = T(count) / width;
+    per_lateral_ = T(0) < width ? T(T(count) / width) : T(0);
     lines_.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
       const T lateral = lower_ + width * T(2 * i + 1) / T(2 * count);
@@ -63,9 +63,14 @@ class SupportingLines {
   /// That of each lane: visit(lane, line).
   template <class Visit>
   void over_each(const detail::Lanes<T>& lateral, const Visit& visit) const {
-    const detail::Lanes<T> place = ((lateral - lower_) * per_lateral_).max(T(0)).min(T(count - 1));
-    for (int lane = 0; lane < detail::lane_count; ++lane) {
-      visit(lane, lines_[static_cast<std::size_t>(static_cast<int>(place[lane]))]);
+    if constexpr (std::is_floating_point_v<T>) {
+      const detail::Lanes<T> place =
+          ((lateral - lower_) * per_lateral_).max(T(0)).min(T(count - 1));
+      for (int lane = 0; lane < detail::lane_count; ++lane) {
+        visit(lane, lines_[static_cast<std::size_t>(static_cast<int>(place[lane]))]);
+      }
+    } else {
+      for (int lane = 0; lane < detail::lane_count; ++lane) visit(lane, over(lateral[lane]));
     }
   }
 

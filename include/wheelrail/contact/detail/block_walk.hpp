@@ -275,7 +275,7 @@ class BlockWalk {
 
   // Counts what was evaluated; a placement whose root was not found is left to the search of one.
   static void take_root(const RootLanes<T>& root, const Lanes<T>& exist, int lane, Item& item) {
-    for (T i = T(0); i < root.iterations[lane]; i = i + T(1)) ++item.evaluations;
+    item.evaluations += count_of<T>(root.iterations[lane]);
     item.is_left = item.is_left || !(T(0) < root.is_converged[lane]) || !(T(0) < exist[lane]);
   }
 

@@ -33,8 +33,8 @@ template <Real T>
   last *= T(1) - rises;
   NearPartLanes<T> parts;
   for (std::size_t i = 0; i < lane_count; ++i) {
-    parts.left_off_first[i] = static_cast<int>(first[static_cast<int>(i)]);
-    parts.left_off_last[i] = static_cast<int>(last[static_cast<int>(i)]);
+    parts.left_off_first[i] = count_of<T>(first[static_cast<int>(i)]);
+    parts.left_off_last[i] = count_of<T>(last[static_cast<int>(i)]);
   }
   return parts;
 }

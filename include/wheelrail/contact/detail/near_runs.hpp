@@ -103,7 +103,7 @@ class NearRuns {
         if (count <= widest) {
           is_above = line.greatest_depth(*node) < limit;
           if (!is_above) {
-            line = line_near(*node);
+            line = line_over(*node);
             is_above = line.greatest_depth(*node) < limit;
           }
         }
@@ -134,7 +134,7 @@ class NearRuns {
 
  private:
   // The one over, or under, the locus point of the node's middle strip, but for yaw squared.
-  [[nodiscard, gnu::always_inline]] inline Line line_near(const StripNode<T>& node) const {
+  [[nodiscard, gnu::always_inline]] inline Line line_over(const StripNode<T>& node) const {
     const T& radius = node.greatest_radius;
     const T y = node.centre - radius * (node.slope * fold_);
     const T lateral =
