@@ -100,20 +100,20 @@ template <Real T>
                       all_lanes(T(0)), flags, then, otherwise);
 }
 
-// A small number of things, as a number of things. @pre 0 <= x, which is whole
+// A number of things that a lane counted. @pre 0 <= x <= 1000, which is whole
 template <Real T>
 [[nodiscard]] inline int count_of(const T& x) {
   if constexpr (std::is_floating_point_v<T>) {
     return static_cast<int>(x);
   } else {
     int count = 0;
-    while (T(count) < x) ++count;
+    while (count < 1000 && T(count) < x) ++count;
     return count;
   }
 }
 
-// Whether there is a flag that is one; the others are zero without a sign. Without a branch for each lane, and bits are quicker put
-// together than numbers.
+// Whether there is a flag that is one; the others are zero without a sign. Without a branch for each
+// lane, and bits are quicker put together than numbers.
 template <Real T>
 [[nodiscard, gnu::always_inline]] inline bool any(const Lanes<T>& flags) {
   if constexpr (0 < vector_size<T>) {
