@@ -3,6 +3,10 @@
 // transitions and cant; these are plausible ones with which the flange contact begins at about 5.2 s
 // and ends at about 37 s at 18.3 m/s. Nothing else is fitted.
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
 #include <wheelrail/track/nodal_track.hpp>
 
 #include "output.hpp"
@@ -20,18 +24,9 @@ struct CurveLayout {
   double departure = 140;  // tangent behind the curve [m]
 };
 
-[[nodiscard]] inline wheelrail::NodalTrack<RailHead> curved_track(
+[[nodiscard]] wheelrail::NodalTrack<RailHead> curved_track(
     const RailHead& rail, const CurveLayout& layout,
-    const wheelrail::TrackDimensions<double>& dimensions) {
-  using Segment = wheelrail::TrackSegment<double>;
-  return wheelrail::NodalTrack<RailHead>(
-      rail,
-      wheelrail::CentreLine<double>(
-          {Segment::tangent(layout.approach), Segment::clothoid(layout.transition),
-           Segment::arc(layout.arc, layout.radius, wheelrail::Side::left, layout.cant),
-           Segment::clothoid(layout.transition), Segment::tangent(layout.departure)}),
-      dimensions);
-}
+    const wheelrail::TrackDimensions<double>& dimensions);
 
 // Where the vehicle's middle starts, so that its rear wheelset is on the track [m].
 inline constexpr double vehicle_start = 10;
