@@ -42,7 +42,7 @@ TEST_CASE("Patch: axes are orthonormal and the zone holds the deepest strip", "[
           CHECK(std::abs(foot.y() - patch.rail_lateral) < 1e-13);
           CHECK(std::abs(foot.z() - on_rail.value) < 1e-13);
           CHECK((Rail<RailHead<double>>::normal_rail(on_rail) - patch.normal_rail).norm() < 1e-9);
-          CHECK(patch.rail_lateral_curvature == curvature(on_rail));
+          CHECK(patch.rail_lateral_curvature == Approx(curvature(on_rail)).epsilon(1e-12));
         }
         const double forwards =
             outboard_sign<double>(side) * (patch.position_rail.x() - placement.position_rail.x());

@@ -375,12 +375,15 @@ template <Profile P, Profile R, class DistanceOn>
     const int piece = piece_of(wheel.profile(), found.points.wheel_lateral);
     const ProfilePoint<T> on_wheel = wheel.profile().evaluate(piece, found.points.wheel_lateral);
     const T rail_lateral = found.points.rail_lateral;
-    const Patch<T> patch =
-        patch_at(wheel, rail, placement, piece, found.points.wheel_lateral, on_wheel,
-                 WheelAngle<T>::of(found.points.wheel_angle), rail_lateral,
-                 Rail<R>::normal_rail(rail.profile().evaluate(
-                     clamp(rail_lateral, rail.profile().lower(), rail.profile().upper()))),
-                 T(-found.distance));
+    const ProfilePoint<T> on_rail = rail.profile().evaluate(
+        clamp(rail_lateral, rail.profile().lower(), rail.profile().upper()));
+    const Vector3<T> normal_rail = Rail<R>::normal_rail(on_rail);
+    const Patch<T> patch = patch_at(wheel, placement, piece, found.points.wheel_lateral, on_wheel,
+                                    WheelAngle<T>::of(found.points.wheel_angle),
+                                    {rail_lateral,
+                                     T(-found.distance),
+                                     {normal_rail.y(), normal_rail.z()},
+                                     Rail<R>::lateral_curvature(on_rail)});
     if (!result.patches.push_back(patch)) result.status = SearchStatus::too_many_patches;
   }
   return result;

@@ -94,34 +94,32 @@ template <Real T>
 }
 
 /// The patch at a pair of contact points, its zone not yet known.
-template <Profile P, Profile R>
+/// @param on_rail the rail's. @pre its normal points upwards, as any profile's does.
+template <Profile P>
 [[nodiscard]] Patch<typename P::Scalar> patch_at(
-    const Wheel<P>& wheel, const Rail<R>& rail, const WheelPlacement<typename P::Scalar>& placement,
-    int piece, const typename P::Scalar& wheel_lateral,
-    const ProfilePoint<typename P::Scalar>& wheel_point,
-    const WheelAngle<typename P::Scalar>& angle, const typename P::Scalar& rail_lateral,
-    const Vector3<typename P::Scalar>& normal_rail, const typename P::Scalar& penetration) {
+    const Wheel<P>& wheel, const WheelPlacement<typename P::Scalar>& placement, int piece,
+    const typename P::Scalar& wheel_lateral, const ProfilePoint<typename P::Scalar>& wheel_point,
+    const WheelAngle<typename P::Scalar>& angle, const ClosestPoint<typename P::Scalar>& on_rail) {
   using std::asin;
   using T = typename P::Scalar;
-  const T on_rail = clamp(rail_lateral, rail.profile().lower(), rail.profile().upper());
+  const T &normal_lateral = on_rail.normal_rail.x(), &normal_up = on_rail.normal_rail.y();
   const Vector3<T> arm_rail =
       placement.direction_rail(wheel.position_wheel(wheel_lateral, wheel_point, angle));
   Patch<T> patch;
   patch.wheel_lateral = wheel_lateral;
   patch.wheel_piece = piece;
-  patch.rail_lateral = rail_lateral;
+  patch.rail_lateral = on_rail.lateral;
   patch.wheel_angle = asin(angle.sine);
   patch.longitudinal = outboard_sign<T>(placement.side) * arm_rail.x();
-  patch.penetration = penetration;
+  patch.penetration = on_rail.penetration;
   patch.zone_lower = patch.zone_upper = T(0) / T(0);
-  patch.contact_angle =
-      arc_tangent(T(-normal_rail.y()), T(normal_rail.z())) + placement.inclination;
+  patch.contact_angle = arc_tangent(T(-normal_lateral / normal_up)) + placement.inclination;
   patch.rolling_radius = wheel.radius(wheel_point);
   patch.wheel_longitudinal_curvature = wheel.longitudinal_curvature(wheel_point);
   patch.wheel_lateral_curvature = wheel.lateral_curvature(wheel_point);
-  patch.rail_lateral_curvature = rail.lateral_curvature(rail.profile().evaluate(on_rail));
+  patch.rail_lateral_curvature = on_rail.curvature;
   patch.position_rail = placement.position_rail + arm_rail;
-  patch.normal_rail = normal_rail;
+  patch.normal_rail = Vector3<T>(T(0), normal_lateral, normal_up);
   patch.longitudinal_rail = placement.direction_rail(wheel.longitudinal_tangent_wheel(angle));
   return patch;
 }
@@ -134,8 +132,7 @@ template <Profile P, Profile R>
   const ProfilePoint<T> point = wheel.profile().evaluate(piece, wheel_lateral);
   const LocusPoint<T> locus = locus_point(wheel, placement, wheel_lateral, point);
   const ClosestPoint<T> foot = rail_foot(rail.profile(), locus.lateral, locus.up);
-  return patch_at(wheel, rail, placement, piece, wheel_lateral, point, locus.angle, foot.lateral,
-                  Vector3<T>(T(0), foot.normal_rail.x(), foot.normal_rail.y()), foot.penetration);
+  return patch_at(wheel, placement, piece, wheel_lateral, point, locus.angle, foot);
 }
 
 // Flat but in dual numbers, as in LocusStrips.

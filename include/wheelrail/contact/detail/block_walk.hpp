@@ -440,11 +440,14 @@ class BlockWalk {
           result.status = SearchStatus::too_deep;
         }
         const bool has_room = result.patches.push_back_made([&] {
-          Patch<T> patch = patch_at(
-              wheel_, rail_, placements_.at(item.index), piece, lateral[lane],
-              {point.value[lane], point.slope[lane], point.second_derivative[lane]},
-              {locus.sine[lane], locus.cosine[lane]}, foot.lateral[lane],
-              {T(0), foot.normal_lateral[lane], foot.normal_up[lane]}, foot.penetration[lane]);
+          Patch<T> patch =
+              patch_at(wheel_, placements_.at(item.index), piece, lateral[lane],
+                       {point.value[lane], point.slope[lane], point.second_derivative[lane]},
+                       {locus.sine[lane], locus.cosine[lane]},
+                       {foot.lateral[lane],
+                        foot.penetration[lane],
+                        {foot.normal_lateral[lane], foot.normal_up[lane]},
+                        foot.curvature[lane]});
           patch.zone_lower = zone.lower;
           patch.zone_upper = zone.upper;
           patch.zone_is_cut = zone.is_cut;
