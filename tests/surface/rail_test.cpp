@@ -1,3 +1,4 @@
+#include <array>
 #include <wheelrail/profile/rail_head.hpp>
 #include <wheelrail/profile/s1002.hpp>
 #include <wheelrail/surface/rail.hpp>
@@ -95,4 +96,9 @@ TEST_CASE("Rail: knows whether its profile is convex, and the least curvature", 
   CHECK_FALSE(
       Rail(PiecewiseProfile<double>({Piece::line(-1, 0, 0, 0, -0.1), Piece::line(0, 1, 0, 0, 0.1)}))
           .is_convex());
+  // A hollow in two pieces has no curvature that is not negative.
+  const std::array<double, 3> hollow{0, 0, 0.5};
+  const Rail concave(PiecewiseProfile<double>(
+      {Piece::polynomial(-1, 0, 0, 1, hollow), Piece::polynomial(0, 1, 0, 1, hollow)}));
+  CHECK(concave.greatest_curvature(-0.5, 0.5) < 0);
 }

@@ -51,7 +51,7 @@ class RailConvexity {
       const T first = profile.joint(piece);
       const T width = profile.joint(piece + 1) - first;
       const T own = curvature(profile.evaluate(piece, first));
-      PieceCurvature of{first, own, own, T(0)};
+      PieceCurvature of{first, own, own};
       for (int i = 0; i < intervals; ++i) {
         const T lower = first + width * T(i) / T(intervals);
         const T upper = i + 1 == intervals ? profile.joint(piece + 1)
@@ -98,9 +98,9 @@ class RailConvexity {
 
  private:
   struct PieceCurvature {
-    T lower = T(0);                   // where the piece begins [m]
-    T least = T(0), greatest = T(0);  // inside [1/m]
-    T at_lower_joint = T(0);          // where that is a corner: hardly finite [1/m]
+    T lower = T(0);                           // where the piece begins [m]
+    T least = T(0), greatest = T(0);          // inside [1/m]
+    T at_lower_joint = T(-1) / epsilon<T>();  // where that is a corner: hardly finite [1/m]
   };
 
   // The piece that holds `lateral`, as piece_of finds it.
