@@ -24,15 +24,16 @@ template <Real T>
                                                      const T& greatest) {
   if constexpr (std::is_floating_point_v<T>) {
     const std::size_t count = indices.size();
-    const T classes = T(static_cast<int>(count));
-    const auto class_of = [&](std::size_t index) {
-      const T place = classes * clamp(T((keys[index] - least) / (greatest - least)), T(0), T(1));
-      return std::min(count - 1, static_cast<std::size_t>(static_cast<std::ptrdiff_t>(place)));
-    };
-    std::vector<std::size_t> begin(count + 1, 0), sorted(count);
-    for (const std::size_t index : indices) ++begin[class_of(index) + 1];
+    const T classes = T(static_cast<int>(count)), per_key = classes / (greatest - least);
+    std::vector<std::size_t> class_of(count), begin(count + 1, 0), sorted(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const T place = clamp(T((keys[indices[i]] - least) * per_key), T(0), classes);
+      class_of[i] =
+          std::min(count - 1, static_cast<std::size_t>(static_cast<std::ptrdiff_t>(place)));
+      ++begin[class_of[i] + 1];
+    }
     for (std::size_t i = 1; i <= count; ++i) begin[i] += begin[i - 1];
-    for (const std::size_t index : indices) sorted[begin[class_of(index)]++] = index;
+    for (std::size_t i = 0; i < count; ++i) sorted[begin[class_of[i]]++] = indices[i];
     return sorted;
   } else {
     return indices;
