@@ -55,6 +55,9 @@ TEMPLATE_TEST_CASE("is_finite: false for NaN and both infinities only", "[core]"
   CHECK_FALSE(is_finite(limits::quiet_NaN()));
   CHECK_FALSE(is_finite(limits::infinity()));
   CHECK_FALSE(is_finite(-limits::infinity()));
+  CHECK(is_finite(limits::max(), limits::max(), limits::lowest()));
+  CHECK_FALSE(is_finite(TestType(1), limits::quiet_NaN(), TestType(1)));
+  CHECK_FALSE(is_finite(TestType(1), limits::infinity(), -limits::infinity()));
 }
 
 TEST_CASE("min, max, clamp, magnitude, square: as their names say", "[core]") {

@@ -373,7 +373,7 @@ class StripWalk {
     Strip at;
     const auto root = bracketed_newton<T>(
         [&](const T& u) {
-          at = strips_.at(left.piece, u);
+          strips_.put(left.piece, u, at);
           lost = lost || !at.exists;
           return ValueAndSlope<T>{at.slope, at.slope_rate};
         },
@@ -400,12 +400,12 @@ class StripWalk {
     if (inside && !zone_is_open_) {
       zone_is_open_ = true;
       zone_is_cut_ = !last_.exists;
-      zone_lower_ =
-          last_.exists || !options_.zone_ends ? boundary(last_, next) : next.wheel_lateral;
+      zone_lower_ = options_.zone_ends ? next.wheel_lateral : T(T(0) / T(0));
+      if (options_.zone_ends && last_.exists) zone_lower_ = boundary(last_, next);
       deepest_ = next;
     } else if (!inside && zone_is_open_) {
       zone_is_cut_ = zone_is_cut_ || !next.exists;
-      close_zone(next.exists ? boundary(last_, next) : last_.wheel_lateral);
+      close_zone(options_.zone_ends && next.exists ? boundary(last_, next) : last_.wheel_lateral);
     } else if (is_blending_ && inside && next.is_exact && deepest_.is_exact) {
       blend(next);
     } else if (inside && next.is_exact &&
@@ -444,7 +444,6 @@ class StripWalk {
 
   // Where the penetration passes the threshold between two neighbouring strips.
   [[nodiscard]] T boundary(const Strip& left, const Strip& right) {
-    if (!options_.zone_ends) return T(0) / T(0);
     if (left.wheel_lateral == right.wheel_lateral) return left.wheel_lateral;
     const T& threshold = options_.penetration_threshold;
     const Strip& inside = penetrates(left) ? left : right;

@@ -88,9 +88,9 @@ namespace detail {
 
 template <Real T>
 [[nodiscard]] bool is_finite_placement(const WheelPlacement<T>& p) {
-  return is_finite(p.position_rail.x()) && is_finite(p.position_rail.y()) &&
-         is_finite(p.position_rail.z()) && is_finite(p.sin_yaw) && is_finite(p.cos_yaw) &&
-         is_finite(p.tan_yaw) && is_finite(p.sin_roll) && is_finite(p.cos_roll) && T(0) < p.cos_yaw;
+  return is_finite(p.position_rail.x(), p.position_rail.y(), p.position_rail.z(), p.sin_yaw,
+                   p.cos_yaw, p.tan_yaw, p.sin_roll, p.cos_roll) &&
+         T(0) < p.cos_yaw;
 }
 
 /// The patch at a pair of contact points, its zone not yet known.

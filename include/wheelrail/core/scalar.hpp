@@ -48,10 +48,11 @@ template <Real T>
   return constant<T>(3.14159265358979323846264338327950288L);
 }
 
-/// True unless @p x is NaN or infinite. Needs no `<cmath>` classification of @p T.
-template <Real T>
-[[nodiscard]] constexpr bool is_finite(const T& x) {
-  return x - x == T(0);
+/// True unless @p x, or one of @p others, is NaN or infinite. Needs no `<cmath>` classification of
+/// @p T.
+template <Real T, class... More>
+[[nodiscard]] constexpr bool is_finite(const T& x, const More&... others) {
+  return ((x - x) + ... + (others - others)) == T(0);
 }
 
 namespace detail {

@@ -1,9 +1,10 @@
 #pragma once
 /// @file
-/// The strips of a wheel, laid out once for all searches: profile points at a fixed spacing, and a
-/// tree over the intervals between them that bounds the profile's shape: how far it rises above its
+/// The strips of a wheel, laid out once for all searches: profile points at a fixed spacing, and
+/// trees over the intervals between them that bound the profile's shape: how far it rises above its
 /// tangents, and how its derivatives vary. May include: core, numerics, profile.
 
+#include <algorithm>
 #include <bit>
 #include <vector>
 #include <wheelrail/core/require.hpp>
@@ -84,11 +85,15 @@ struct StripNode {
   bool is_in_one_piece = false;  ///< all its strips are of one piece
 };
 
-/// The strips of a profile in order, and its nodes in preorder. Nodes over several pieces are split
-/// at a joint.
+/// The strips of a profile in order, and the nodes over them: one tree after the other, each in
+/// preorder. Nodes over several pieces are split at a joint.
 template <Real T>
 class StripTree {
  public:
+  /// A tree covers at most so many strips, or one part of so many of the profile where that is more.
+  /// Wider nodes mostly have parts that no line is below.
+  static constexpr int widest_node = 16;
+
   /// @param spacing strips are at most this far apart [m].
   /// @throws std::invalid_argument unless spacing is finite and > 0 and makes at most 100,000
   /// strips.
@@ -125,14 +130,17 @@ class StripTree {
       }
     }
     leaves_.resize(strips_.size());
-    build(intervals, 0, static_cast<int>(intervals.size()), profile, nominal_radius);
+    const int count = static_cast<int>(intervals.size());
+    widest_ = std::max(+widest_node, count / widest_node);
+    build(intervals, 0, count, profile, nominal_radius);
   }
 
   /// Not less than the radius of any strip [m].
   [[nodiscard]] const T& greatest_radius() const { return greatest_radius_; }
   /// By lateral coordinate.
   [[nodiscard]] const std::vector<Strip<T>>& strips() const { return strips_; }
-  [[nodiscard]] const std::vector<StripNode<T>>& nodes() const { return nodes_; }  ///< in preorder
+  /// Tree by tree.
+  [[nodiscard]] const std::vector<StripNode<T>>& nodes() const { return nodes_; }
   /// The interval between a strip and the next one of its piece.
   [[nodiscard]] const StripNode<T>& leaf(int first) const {
     return nodes_[leaves_[static_cast<std::size_t>(first)]];
@@ -198,6 +206,12 @@ class StripTree {
   template <Profile P>
   void build(const std::vector<Interval>& intervals, int begin, int end, const P& profile,
              const T& nominal_radius) {
+    if (widest_ < end - begin) {
+      const int at = split(intervals, begin, end);
+      build(intervals, begin, at, profile, nominal_radius);
+      build(intervals, at, end, profile, nominal_radius);
+      return;
+    }
     const std::size_t self = nodes_.size();
     nodes_.emplace_back();
     const Interval& front = intervals[static_cast<std::size_t>(begin)];
@@ -237,6 +251,7 @@ class StripTree {
   }
 
   T greatest_radius_;
+  int widest_ = 0;  // most intervals of a node
   std::vector<Strip<T>> strips_;
   // Of the interval before each strip; then of the two from there on, of the four, and so on, as long
   // as there are so many; those over several pieces mean nothing.

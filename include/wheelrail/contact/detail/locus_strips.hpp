@@ -34,6 +34,11 @@ class LocusStrips {
     }
   }
 
+  // The same, put into `result`: returned from there it would be copied.
+  [[gnu::flatten]] void put(int piece, const T& u, Strip& result) {
+    result = strip(piece, u, wheel_.profile().evaluate(piece, u));
+  }
+
   // The strip of the wheel's own of that index.
   [[nodiscard]] Strip of_wheel(int index) {
     const auto& strip = wheel_.strips().strips()[static_cast<std::size_t>(index)];
@@ -67,8 +72,8 @@ class LocusStrips {
     const Vector2<T>& normal = foot.normal_rail;
     // The foot moves along the surface, so only the locus' own motion across it counts.
     const T slope = -(normal.x() * locus.lateral_rate + normal.y() * locus.up_rate);
-    const bool exists = is_finite(foot.penetration) && is_finite(slope) &&
-                        !(foot.lateral < rail_lower_) && !(rail_upper_ < foot.lateral);
+    const bool exists = is_finite(foot.penetration, slope) && !(foot.lateral < rail_lower_) &&
+                        !(rail_upper_ < foot.lateral);
     return Strip{
         u,     foot.lateral, foot.penetration, slope, slope_rate(point, locus, foot), normal,
         piece, exists};

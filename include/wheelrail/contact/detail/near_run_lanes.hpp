@@ -48,7 +48,12 @@ void for_each_near_run(const Wheel<P>& wheel, const Rail<R>& rail,
   using T = typename P::Scalar;
   const auto& nodes = wheel.strips().nodes();
   const auto& lines = rail.supporting_lines();
-  const int widest = rail.is_convex() ? widest_above_line : 0;
+  if (!rail.is_convex()) {
+    for (int lane = 0; lane < lane_count; ++lane) {
+      for_each_piece(wheel.strips(), [&](int from, int to) { visit(lane, from, to); });
+    }
+    return;
+  }
   const Lanes<T> axle_lateral = at.cos_roll * at.cos_yaw, axle_up = at.sin_roll * at.cos_yaw;
   const Lanes<T> fold = at.sin_yaw * at.tan_yaw;
   Lanes<T> along = Lanes<T>::Zero(),
@@ -69,17 +74,11 @@ void for_each_near_run(const Wheel<P>& wheel, const Rail<R>& rail,
   };
   for (std::size_t index = 0; index < nodes.size();) {
     const StripNode<T>& node = nodes[index];
-    if (widest < node.last - node.first && finest_node < node.last - node.first) {
-      ++index;  // into what all lanes look at, as at everything above it
-      continue;
-    }
     const T place = T(static_cast<int>(index)), skip = T(static_cast<int>(node.skip));
     const Lanes<T> looks = T(1) - less<T>(all_lanes(place), resume);
-    const bool is_tested = node.last - node.first <= widest;
-    Lanes<T> is_kept = looks;
-    if (is_tested) is_kept = looks * is_near(node);
+    Lanes<T> is_kept = looks * is_near(node);
     bool is_any_kept = any<T>(is_kept);
-    if (is_any_kept && is_tested) {
+    if (is_any_kept) {
       const T& radius = node.greatest_radius;
       const Lanes<T> y = node.centre - radius * (node.slope * fold);
       Lanes<T> normal_lateral, normal_up, line_height;

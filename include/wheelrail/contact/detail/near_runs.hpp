@@ -7,8 +7,6 @@
 
 namespace wheelrail::detail {
 
-// Nodes over more strips than this mostly have parts that no line is below: they are not tested.
-inline constexpr int widest_above_line = 32;
 // A node over so few is not divided further where the yaw is small, but what lies above the last
 // line is left off its ends: that costs less than its parts' tests. Where the yaw is greater, its
 // bounds are so loose that finer runs pay.
@@ -33,7 +31,7 @@ struct LineAbove {
   }
   [[nodiscard, gnu::always_inline]] inline T greatest_depth(const StripNode<T>& node) const {
     const T slope = lean(node);
-    return depth_at_centre(node) + max(slope, T(-slope)) * node.half_width;
+    return depth_at_centre(node) + magnitude(slope) * node.half_width;
   }
 };
 
@@ -63,6 +61,18 @@ template <Real T>
   return part;
 }
 
+// Calls visit(first, last) for all strips, piece by piece: above a rail that is not convex there are no
+// lines.
+template <Real T, class Visit>
+void for_each_piece(const StripTree<T>& tree, const Visit& visit) {
+  const auto& strips = tree.strips();
+  for (std::size_t first = 0, i = 1; i <= strips.size(); ++i) {
+    if (i < strips.size() && strips[i].piece == strips[first].piece) continue;
+    visit(static_cast<int>(first), static_cast<int>(i - 1));
+    first = i;
+  }
+}
+
 // The runs of strips that no line above the rail keeps off it. What is called for each node is
 // always inlined: a search spends a quarter of its time here.
 template <Profile P, Profile R>
@@ -88,37 +98,33 @@ class NearRuns {
   // proved to stay `clearance` [m] above a line.
   template <class Visit>
   void for_each(const T& clearance, Visit&& visit) const {
+    if (!rail_.is_convex()) return for_each_piece(wheel_.strips(), visit);
     const T limit = threshold_ - clearance;
-    const int widest = rail_.is_convex() ? widest_above_line : 0;
     const int finest = square(placement_.tan_yaw) < small_squared_tan_yaw<T> ? finest_node : 1;
     const StripNode<T>* const begin = wheel_.strips().nodes().data();
     const StripNode<T>* const end = begin + wheel_.strips().nodes().size();
-    Line line;                // the last one that was looked at
-    int first = 0, last = 0;  // of the run so far: empty
+    Line line;       // the last one that was looked at
+    StripRange run;  // so far: empty
     for (const StripNode<T>* node = begin; true; node = begin + node->skip) {
       // The next one that is part of a run.
       while (node != end) {
-        const int count = node->last - node->first;
-        bool is_above = false;
-        if (count <= widest) {
+        bool is_above = line.greatest_depth(*node) < limit;
+        if (!is_above) {
+          line = line_over(*node);
           is_above = line.greatest_depth(*node) < limit;
-          if (!is_above) {
-            line = line_over(*node);
-            is_above = line.greatest_depth(*node) < limit;
-          }
         }
-        if (!is_above && count <= finest && node->is_in_one_piece) break;
+        if (!is_above && node->last - node->first <= finest && node->is_in_one_piece) break;
         node = is_above ? begin + node->skip : node + 1;
       }
       const StripRange next =
           node == end ? StripRange{} : near_part(wheel_.strips(), *node, line, limit);
-      if (first != last && (node == end || next.first != last)) {
-        visit(first, last);
-        first = last;
+      if (run.first != run.last && (node == end || next.first != run.last)) {
+        visit(run.first, run.last);
+        run.first = run.last;
       }
       if (node == end) return;
-      if (first == last) first = next.first;
-      last = next.last;
+      if (run.first == run.last) run.first = next.first;
+      run.last = next.last;
     }
   }
 
