@@ -7,8 +7,9 @@ usage() {
 usage: tests/run.sh [--compiler g++|clang++] [--full] [--slow] [--help]
 
 Installs what is missing (apt-get; root or sudo), then configures, builds and runs the tests in
-build/tests-<compiler>: those of examples, packaging and threads with g++; those of the headers with
-clang++, assertions, and the sanitizers of addresses and undefined behaviour. So each test runs once.
+build/tests-<compiler>: those of threads, packaging and documentation with g++, which compiles the
+examples, too; those of headers and examples with clang++, assertions, and the sanitizers of addresses
+and undefined behaviour. So each test runs once.
 
   --compiler NAME  g++ or clang++ only
   --full           all tests with each compiler; g++ with -O2
@@ -69,15 +70,15 @@ run_slow_tests() {
   done
 }
 
-full_examples=OFF
-full_headers=OFF
+gcc_header_tests=OFF
+clang_brief=ON
 optimised="-O1 -DNDEBUG"
 # Most tests take longer to compile than to run; the others are optimised nevertheless
 # (wheelrail_computes_long in CMakeLists.txt).
 sanitized="-O0 -fsanitize=address,undefined -fno-sanitize-recover=all"
-if [ "$full" = yes ]; then full_examples=ON; fi
+if [ "$full" = yes ]; then clang_brief=OFF; fi
 if [ "$full" = yes ] || [ "$slow" = yes ]; then
-  full_headers=ON
+  gcc_header_tests=ON
   optimised="-O2 -DNDEBUG"
 fi
 jobs=$(nproc)
@@ -87,19 +88,20 @@ for compiler in $compilers; do
   case $compiler in
     clang++)
       flags=$sanitized
-      examples=$full_examples
-      headers=ON
+      header_tests=ON
+      brief=$clang_brief
       ;;
     *)
       flags=$optimised
-      examples=ON
-      headers=$full_headers
+      header_tests=$gcc_header_tests
+      brief=OFF
       ;;
   esac
   cmake -S . -B "$build" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_FLAGS_RELEASE="$flags" -DWHEELRAIL_BUILD_TESTS=ON \
-    -DWHEELRAIL_BUILD_EXAMPLES=$examples -DWHEELRAIL_BUILD_LIBRARY_TESTS=$headers \
-    -DWHEELRAIL_REQUIRE_ALL_TESTS=$examples -DWHEELRAIL_WARNINGS_AS_ERRORS=ON
+    -DWHEELRAIL_BUILD_EXAMPLES=ON -DWHEELRAIL_BUILD_HEADER_TESTS=$header_tests \
+    -DWHEELRAIL_BRIEF_PACKAGING_TESTS=$brief -DWHEELRAIL_REQUIRE_ALL_TESTS=ON \
+    -DWHEELRAIL_WARNINGS_AS_ERRORS=ON
   cmake --build "$build" --parallel "$jobs"
   (cd -- "$build" && ctest --output-on-failure --parallel "$jobs")
   if [ "$slow" = yes ] && [ "$compiler" = g++ ]; then
