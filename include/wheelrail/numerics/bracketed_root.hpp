@@ -76,7 +76,7 @@ template <Real T, class Function>
                                              T value_upper, T start,
                                              const RootOptions<T>& options = {}) {
   RootResult<T> result;
-  if (!is_finite(value_lower) || !is_finite(value_upper) || !is_finite(start)) return result;
+  if (!is_finite(value_lower, value_upper, start)) return result;
   if (value_lower == T(0)) return {lower, T(0), 0, SolveStatus::converged};
   if (value_upper == T(0)) return {upper, T(0), 0, SolveStatus::converged};
   if ((value_lower < T(0)) == (value_upper < T(0))) {

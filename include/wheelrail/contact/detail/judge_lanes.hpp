@@ -67,14 +67,16 @@ class PenetrationBoundsLanes {
     const L half = all_lanes(T(T(1) / T(2)));
     L is_bounded = left.exists * right.exists *
                    less<T>(sine_squared + yaw * (slope_squared + radius_ * hollow), half);
-    const L cosine = (T(1) - sine_squared).sqrt();
-    const L twist = yaw * radius_ * shape.third / cosine;
-    is_bounded = is_bounded * less<T>(twist * width, half);
-    const L by_yaw = yaw * (slope * shape.second * (T(3) + T(2) * slope / cosine) +
-                            twist * (slope_squared * (T(2) + slope) +
-                                     radius_ * shape.second * (T(1) + slope / cosine)));
-    const L steepest = (left.slope.abs().max(right.slope.abs()) + (hollow + by_yaw) * width) /
-                       (T(1) - twist * width);
+    const L cosine = T(1) - sine_squared, secant = T(1) + sine_squared;
+    const L steep = slope * secant;
+    const L twist = yaw * radius_ * shape.third * secant;
+    const L turned = twist * width;
+    is_bounded = is_bounded * less<T>(turned, half);
+    const L by_yaw =
+        yaw * (slope * shape.second * (T(3) + T(2) * steep) +
+               twist * (slope_squared * (T(2) + slope) + radius_ * shape.second * (T(1) + steep)));
+    const L steepest = (left.slope.abs().max(right.slope.abs()) + (hollow + by_yaw) * width) *
+                       (T(1) + turned * (T(1) + T(2) * turned));
     const L bend = hollow + by_yaw + twist * steepest;
     const L variation = steepest * width;
     verdicts.is_excluded = is_bounded * (T(1) - may_penetrate(left, right, width, bend));
@@ -122,13 +124,13 @@ class PenetrationBoundsLanes {
         goes_on * (T(1) - may_penetrate(left, right, width, greatest_bend)));
     goes_on = goes_on * is_open();
     if (!any<T>(goes_on)) return verdicts;
-    const L stretch = T(1) + yaw * radius_ * shape.second / (cosine * cosine);
+    const L stretch = T(1) + yaw * radius_ * shape.second * (secant * secant);
     const L greatest_speed = (T(1) + slope_squared) * (stretch * stretch);
     const L deepest = zero.max(left.penetration.max(right.penetration) + variation);
     const L wheel_bend_least =
         choose<T>(less<T>(least_product, zero), least_product, least_product * cosine) - by_yaw -
         twist * steepest -
-        T(2) * yaw * radius_ * (shape.second * shape.second) / ((cosine * cosine) * cosine);
+        T(2) * yaw * radius_ * (shape.second * shape.second) * ((secant * secant) * secant);
     const L under_centre = T(1) - greatest_curvature * deepest;
     goes_on = goes_on * less<T>(zero, under_centre);
     const L least_bend = wheel_bend_least - greatest_speed * greatest_curvature / under_centre;

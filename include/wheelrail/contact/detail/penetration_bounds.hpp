@@ -131,7 +131,6 @@ class PenetrationBounds {
   template <class End>
   [[nodiscard]] Judgement<T> judge(const End& left, const End& right,
                                    const ShapeBounds<T>& shape) const {
-    using std::sqrt;
     const Judgement<T> unknown{Verdict::open, radius_, left.exists || right.exists};
     if (!rail_.is_convex() || !left.exists || !right.exists) return unknown;
     // Along the axes that the wheel's roll turns.
@@ -151,15 +150,19 @@ class PenetrationBounds {
     if (!(sine_squared + yaw * (slope_squared + radius * hollow) < constant<T>(0.5L))) {
       return {Verdict::open, radius_, false};
     }
-    const T cosine = sqrt(T(T(1) - sine_squared));
-    const T twist = yaw * radius * shape.third / cosine;
-    if (!(twist * width < constant<T>(0.5L))) return unknown;
-    const T by_yaw = yaw * (slope * shape.second * (T(3) + T(2) * slope / cosine) +
-                            twist * (slope_squared * (T(2) + slope) +
-                                     radius * shape.second * (T(1) + slope / cosine)));
+    // cos s_w is not less, its inverse not greater: no root and no division is waited for.
+    const T cosine = T(1) - sine_squared, secant = T(1) + sine_squared;
+    const T steep = slope * secant;
+    const T twist = yaw * radius * shape.third * secant;
+    const T turned = twist * width;
+    if (!(turned < constant<T>(0.5L))) return unknown;
+    const T by_yaw =
+        yaw * (slope * shape.second * (T(3) + T(2) * steep) +
+               twist * (slope_squared * (T(2) + slope) + radius * shape.second * (T(1) + steep)));
+    // 1 / (1 - turned) is not greater than the last factor.
     const T steepest =
-        (max(greatest_slope_of(left), greatest_slope_of(right)) + (hollow + by_yaw) * width) /
-        (T(1) - twist * width);
+        (max(greatest_slope_of(left), greatest_slope_of(right)) + (hollow + by_yaw) * width) *
+        (T(1) + turned * (T(1) + T(2) * turned));
     const T bend = hollow + by_yaw + twist * steepest;
     const T variation = steepest * width;
     if (!may_penetrate(left, right, bend)) return {Verdict::excluded, variation};
@@ -198,13 +201,13 @@ class PenetrationBounds {
     }
     if (!may_penetrate(left, right, greatest_bend)) return {Verdict::excluded, variation};
     // Convex, where the wheel is more hollow than the rail is curved?
-    const T stretch = T(1) + yaw * radius * shape.second / square(cosine);
+    const T stretch = T(1) + yaw * radius * shape.second * square(secant);
     const T greatest_speed = (T(1) + slope_squared) * square(stretch);
     const T deepest =
         max(T(0), T(max(left.greatest_penetration(), right.greatest_penetration()) + variation));
     const T wheel_bend_least =
         (least_product < T(0) ? least_product : T(least_product * cosine)) - by_yaw -
-        twist * steepest - T(2) * yaw * radius * square(shape.second) / (square(cosine) * cosine);
+        twist * steepest - T(2) * yaw * radius * square(shape.second) * (square(secant) * secant);
     const T under_centre = T(1) - greatest_curvature * deepest;
     if (!(T(0) < under_centre)) return {Verdict::open, variation};
     const T least_bend = wheel_bend_least - greatest_speed * greatest_curvature / under_centre;
