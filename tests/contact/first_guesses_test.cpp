@@ -30,14 +30,16 @@ TEST_CASE("extremum_guess: exact for two parabolas that meet in slope", "[contac
   CHECK(before == Approx(0.003).epsilon(1e-10));
 }
 
-TEST_CASE("extremum_guess: near that of a cubic", "[contact]") {
+TEST_CASE("extremum_guess: exact for a cubic, its maximum and its minimum", "[contact]") {
   // p = 0.01 u - u^2 - 30 u^3 over 10 mm: p' = 0 at (sqrt(1 + 0.9) - 1) / 90.
   const auto at = [](double u) {
     return strip(u, 0.01 * u - u * u - 30 * u * u * u, 0.01 - 2 * u - 90 * u * u, -2 - 180 * u);
   };
   const double exact = (std::sqrt(1.9) - 1) / 90;
-  CHECK(detail::extremum_guess(at(0), at(0.01), 0.0) == Approx(exact).margin(1e-5));
-  CHECK(detail::extremum_guess(at(0.003), at(0.005), 0.0) == Approx(exact).margin(1e-9));
+  CHECK(detail::extremum_guess(at(0), at(0.01), 0.0) == Approx(exact).margin(1e-14));
+  CHECK(detail::extremum_guess(at(0.003), at(0.005), 0.0) == Approx(exact).margin(1e-14));
+  const double minimum = -(std::sqrt(1.9) + 1) / 90;
+  CHECK(detail::extremum_guess(at(-0.03), at(-0.02), 0.0) == Approx(minimum).margin(1e-14));
 }
 
 TEST_CASE("boundary_guess: near where two parabolas pass the threshold", "[contact]") {

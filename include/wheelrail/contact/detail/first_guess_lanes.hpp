@@ -42,12 +42,10 @@ struct PenetrationCurveLanes {
     return choose<T>(is_left(from_left.value(joint), from_left.c0), from_left.near_root(t),
                      T(1) + from_right.near_root(t - T(1)));
   }
-  [[nodiscard]] L extremum(const L& t) const {
-    const L top_from_left = -from_left.c1 / (T(2) * from_left.c2);
-    const L top_from_right = -from_right.c1 / (T(2) * from_right.c2);
-    return choose<T>(is_left(from_left.slope(joint), from_left.c1),
-                     from_left.near_extremum(choose<T>(has_joint, top_from_left, t)),
-                     T(1) + from_right.near_extremum(top_from_right));
+  [[nodiscard]] L extremum() const {
+    const L side = T(1) - T(2) * less<T>(from_left.c1, L::Zero());
+    return choose<T>(is_left(from_left.slope(joint), from_left.c1), from_left.extremum(side),
+                     T(1) + from_right.extremum(side));
   }
 
  private:
@@ -70,7 +68,7 @@ template <Real T>
                                       const LocusStripLanes<T>& right, const T& threshold) {
   const Lanes<T> secant = left.slope / (left.slope - right.slope);
   const PenetrationCurveLanes<T> curve(left, right, threshold);
-  return between<T>(left, right, curve.extremum(secant), secant);
+  return between<T>(left, right, curve.extremum(), secant);
 }
 
 // left_is_inside: flags

@@ -3,6 +3,7 @@
 // strips tell: where Newton's method starts. May include: core, numerics, profile, surface,
 // contact/placement.
 
+#include <cmath>
 #include <wheelrail/contact/detail/locus_strip.hpp>
 #include <wheelrail/surface/wheel.hpp>
 
@@ -29,9 +30,10 @@ struct Cubic {
     for (int i = 0; i < 2; ++i) t -= value(t) / slope(t);
     return t;
   }
-  [[nodiscard]] V near_extremum(V t) const {
-    for (int i = 0; i < 2; ++i) t -= slope(t) / (T(2) * c2 + t * T(6) * c3);
-    return t;
+  // The maximum where side = 1, the minimum where side = -1; not a number where there is none.
+  [[nodiscard]] V extremum(const V& side) const {
+    using std::sqrt;
+    return c1 / (side * sqrt(V(c2 * c2 - T(3) * c1 * c3)) - c2);
   }
 };
 
@@ -72,12 +74,11 @@ struct PenetrationCurve {
     const bool is_left = joint == T(1) || (from_left.value(joint) < T(0)) != (from_left.c0 < T(0));
     return is_left ? from_left.near_root(t) : T(T(1) + from_right.near_root(T(t - T(1))));
   }
-  // Near where its slope is zero; without a joint, from the share t on.
-  [[nodiscard]] T extremum(const T& t) const {
-    if (joint == T(1)) return from_left.near_extremum(t);
-    const bool is_left = (from_left.slope(joint) < T(0)) != (from_left.c1 < T(0));
-    if (is_left) return from_left.near_extremum(T(-from_left.c1 / (T(2) * from_left.c2)));
-    return T(1) + from_right.near_extremum(T(-from_right.c1 / (T(2) * from_right.c2)));
+  // Where its slope is zero.
+  [[nodiscard]] T extremum() const {
+    const T side = from_left.c1 < T(0) ? T(-1) : T(1);
+    const bool is_left = joint == T(1) || (from_left.slope(joint) < T(0)) != (from_left.c1 < T(0));
+    return is_left ? from_left.extremum(side) : T(T(1) + from_right.extremum(side));
   }
 };
 
@@ -94,7 +95,7 @@ template <Real T>
 [[nodiscard]] T extremum_guess(const LocusStrip<T>& left, const LocusStrip<T>& right,
                                const T& threshold) {
   const T secant = left.slope / (left.slope - right.slope);
-  return between(left, right, PenetrationCurve<T>(left, right, threshold).extremum(secant), secant);
+  return between(left, right, PenetrationCurve<T>(left, right, threshold).extremum(), secant);
 }
 
 // Where between two strips, one of which penetrates, the penetration may pass the threshold [m]. It
