@@ -17,7 +17,7 @@ TEST_CASE("near_part: what is left off a node's end stays above the line", "[con
   };
   int left_off = 0, whole = 0;
   for (const auto& node : tree.nodes()) {
-    if (!node.is_in_one_piece) continue;
+    if (node.last - node.first < node.run_length) continue;
     const int piece = tree.strips()[static_cast<std::size_t>(node.first)].piece;
     for (int i = 0; i < 20; ++i) {
       const double angle = between(-1.3, 1.3);

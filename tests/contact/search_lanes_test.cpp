@@ -167,7 +167,7 @@ TEST_CASE("near_parts: what near_part leaves off a node's ends, in lanes", "[con
   Random random;
   int left_off_first = 0, left_off_last = 0, all = 0;
   for (const auto& node : tree.nodes()) {
-    if (!node.is_in_one_piece || detail::finest_node < node.last - node.first) continue;
+    if (detail::finest_node < node.run_length) continue;
     Lanes<double> along, across, height;
     for (int lane = 0; lane < lane_count; ++lane) {
       const double angle = random.between(-1.3, 1.3);

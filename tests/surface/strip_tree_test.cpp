@@ -1,3 +1,4 @@
+#include <climits>
 #include <random>
 #include <wheelrail/profile/convex_modification.hpp>
 #include <wheelrail/profile/s1002.hpp>
@@ -88,9 +89,9 @@ TEST_CASE("StripTree: preorder visits each leaf once and skips what it says", "[
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     CHECK(nodes[i].skip > i);
     CHECK((nodes[i].last == nodes[i].first + 1) == (nodes[i].skip == i + 1));
-    CHECK(nodes[i].is_in_one_piece ==
-          (tree.strips()[static_cast<std::size_t>(nodes[i].first)].piece ==
-           tree.strips()[static_cast<std::size_t>(nodes[i].last)].piece));
+    const bool is_run = tree.strips()[static_cast<std::size_t>(nodes[i].first)].piece ==
+                        tree.strips()[static_cast<std::size_t>(nodes[i].last)].piece;
+    CHECK(nodes[i].run_length == (is_run ? nodes[i].last - nodes[i].first : INT_MAX));
     if (nodes[i].skip != i + 1) continue;
     CHECK((nodes[i].first == reached || nodes[i].first == reached + 1));
     reached = nodes[i].last;

@@ -507,7 +507,8 @@ class StripWalk {
   PenetrationBounds<R> bounds_;
   T grid_ = T(0);     // a last Newton step this long leaves an error of rounding [m]
   int reached_ = -1;  // the last strip of the wheel that was visited
-  Strip last_, deepest_;
+  Strip last_;
+  DeepestStrip<T> deepest_;  // of the zone
   T zone_lower_ = T(0);
   bool zone_is_open_ = false, zone_is_cut_ = false;
   bool is_blending_ = false;

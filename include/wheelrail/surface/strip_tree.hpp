@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <vector>
 #include <wheelrail/core/require.hpp>
 #include <wheelrail/profile/profile.hpp>
@@ -82,7 +83,8 @@ struct StripNode {
   int first = 0;             ///< index of a strip
   int last = 0;              ///< first + 1: a leaf, the interval between two strips
   std::size_t skip = 0;      ///< the node after this one's subtree; the first child is the next
-  bool is_in_one_piece = false;  ///< all its strips are of one piece
+  /// last - first; the greatest int where its strips are of several pieces, and so no run.
+  int run_length = 0;
 };
 
 /// The strips of a profile in order, and the nodes over them: one tree after the other, each in
@@ -225,7 +227,8 @@ class StripTree {
     const ProfilePoint<T> middle =
         end - begin == 1 ? front.middle.point : profile.evaluate(node.centre);
     node.slope = middle.slope;
-    node.is_in_one_piece = front.middle.piece == back.middle.piece;
+    const bool is_in_one_piece = front.middle.piece == back.middle.piece;
+    node.run_length = is_in_one_piece ? node.last - node.first : std::numeric_limits<int>::max();
     T rise = T(0);
     for (int i = begin; i < end; ++i) {
       const Interval& interval = intervals[static_cast<std::size_t>(i)];

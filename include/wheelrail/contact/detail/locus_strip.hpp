@@ -31,6 +31,21 @@ struct LocusStrip {
   static constexpr bool moves = false;
 };
 
+// What a zone keeps of its deepest strip.
+template <Real T>
+struct DeepestStrip {
+  T wheel_lateral = T(0), penetration = T(0);  // [m]
+  int piece = -1;
+  bool is_exact = true;
+
+  DeepestStrip() = default;
+  DeepestStrip(const LocusStrip<T>& strip)  // on purpose not explicit
+      : wheel_lateral(strip.wheel_lateral),
+        penetration(strip.penetration),
+        piece(strip.piece),
+        is_exact(strip.is_exact) {}
+};
+
 // What a strip keeps within while the wheel moves.
 template <Real T>
 struct MovingStrip {

@@ -99,7 +99,7 @@ void for_each_near_run(const Wheel<P>& wheel, const Rail<R>& rail,
     }
     // The lanes that look at the node's children; for the others that kept it, it belongs to a run.
     Lanes<T> goes_down = is_kept;
-    if (is_any_kept && node.is_in_one_piece && node.last - node.first <= finest_node) {
+    if (is_any_kept && node.run_length <= finest_node) {
       goes_down = is_kept * less<T>(finest, all_lanes(T(node.last - node.first)));
       const NearPartLanes<T> parts =
           near_parts<T>(wheel.strips(), node, along, across, height, limit);

@@ -113,7 +113,7 @@ class NearRuns {
           line = line_over(*node);
           is_above = line.greatest_depth(*node) < limit;
         }
-        if (!is_above && node->last - node->first <= finest && node->is_in_one_piece) break;
+        if (!is_above && node->run_length <= finest) break;
         node = is_above ? begin + node->skip : node + 1;
       }
       const StripRange next =

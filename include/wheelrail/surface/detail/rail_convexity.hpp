@@ -111,6 +111,9 @@ class RailConvexity {
       const std::size_t middle = piece + (end - piece) / 2;
       (lateral < curvatures_[middle].lower ? end : piece) = middle;
     }
+    const std::size_t first = piece;
+    piece += (end - piece) / 2;  // most feet are near the middle
+    while (first < piece && lateral < curvatures_[piece].lower) --piece;
     while (piece + 1 < end && !(lateral < curvatures_[piece + 1].lower)) ++piece;
     return piece;
   }
