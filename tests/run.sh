@@ -7,12 +7,12 @@ usage() {
 usage: tests/run.sh [--compiler g++|clang++] [--full] [--slow] [--help]
 
 Installs what is missing (apt-get; root or sudo), then configures, builds and runs the tests in
-build/tests-<compiler>: those of threads, packaging and documentation with g++, which compiles the
-examples, too; those of headers and examples with clang++, assertions, and the sanitizers of addresses
-and undefined behaviour. So each test runs once.
+build/tests-<compiler>: those of headers, examples and packaging with clang++, assertions, and the
+sanitizers of addresses and undefined behaviour; with g++, which compiles the examples too, those of
+threads, packaging and documentation, and of the searches and the wheelset's run.
 
-  --compiler NAME  g++ or clang++ only
-  --full           all tests with each compiler; g++ with -O2
+  --compiler NAME  the share of g++ or clang++ only
+  --full           all tests with each compiler, but those of threads with g++ only; g++ with -O2
   --slow           all tests with g++ -O2, those too that are hidden because they take long
   --help           print this
 TEXT

@@ -42,6 +42,19 @@ TEST_CASE("extremum_guess: exact for a cubic, its maximum and its minimum", "[co
   CHECK(detail::extremum_guess(at(-0.03), at(-0.02), 0.0) == Approx(minimum).margin(1e-14));
 }
 
+TEST_CASE("extremum_guess: a minimum behind a joint", "[contact]") {
+  // p'' is 10 up to 4 mm and 2 from there on.
+  const auto from = strip(0, 0, -0.045, 10), to = strip(0.01, -9.4e-5, 0.007, 2);
+  CHECK(detail::extremum_guess(from, to, 0.0) == Approx(0.0065).epsilon(1e-10));
+}
+
+TEST_CASE("extremum_guess: the secant where the curve behind a joint has none", "[contact]") {
+  // As two parabolas, but for 15 um less of a rise: c2^2 < 3 c1 c3 on the right.
+  const auto left = strip(0, 0, 0.045, -10), right = strip(0.01, 7.9e-5, -0.007, -2);
+  REQUIRE(std::isnan(detail::PenetrationCurve<double>(left, right, 0.0).extremum()));
+  CHECK(detail::extremum_guess(left, right, 0.0) == Approx(0.01 * 0.045 / 0.052).epsilon(1e-12));
+}
+
 TEST_CASE("boundary_guess: near where two parabolas pass the threshold", "[contact]") {
   // From the top at 3 mm, 44 um lower at 7 mm; p'' is -10 up to 4 mm and -2 from there on.
   const auto top = strip(0.003, 1e-4, 0, -10), outside = strip(0.01, -1e-6, -0.022, -2);

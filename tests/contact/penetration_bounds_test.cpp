@@ -110,20 +110,27 @@ TEST_CASE("judge: what is simple has one extremum at most, what is excluded does
   const auto between = [&random](double lower, double upper) {
     return lower + (upper - lower) * (static_cast<double>(random()) / 4294967296.0);
   };
-  int excluded = 0, simple = 0, one_sign = 0, open = 0, open_with_more = 0;
-  for (int i = 0; i < 6000; ++i) {
+  int excluded = 0, simple = 0, one_sign = 0, open = 0, open_with_more = 0, far_yawed = 0;
+  for (int i = 0; i < 9000; ++i) {
     const double lateral = between(-0.008, 0.008), up = between(0.4290, 0.4305);
-    const auto placement = placed(lateral, up, between(-0.03, 0.03), between(-0.08, 0.08));
+    const double greatest_yaw = i < 6000 ? 0.03 : 0.2;
+    const double yaw = between(-greatest_yaw, greatest_yaw);
+    const auto placement = placed(lateral, up, yaw, between(-0.08, 0.08));
     const detail::PenetrationBounds<RailHead<double>> bounds(rail, wheel.strips().greatest_radius(),
                                                              placement, 0.0);
-    const double u = between(-0.036, 0.04), half_width = between(1e-4, 6e-3);
+    const double u = i < 6000 ? between(-0.036, 0.04) : between(-0.05, -0.03);
+    const double half_width = between(1e-4, 6e-3);
     const int piece = piece_of(profile, u);
     const double lower = std::max(u - half_width, profile.joint(piece));
     const double upper = std::min(u + half_width, profile.joint(piece + 1));
     const auto left = strip_at(wheel, rail, placement, piece, lower);
     const auto right = strip_at(wheel, rail, placement, piece, upper);
     if (!left.exists || !right.exists) continue;
-    const auto judgement = bounds.judge(left, right, shape_bounds(profile, piece, lower, upper));
+    const auto shape = shape_bounds(profile, piece, lower, upper);
+    const auto judgement = bounds.judge(left, right, shape);
+    // Where the bounds of the wheel angle's cosine are not those of one near to 1.
+    far_yawed += judgement.verdict != detail::Verdict::open &&
+                 0.02 < detail::square(std::tan(yaw) * shape.steepest);
     int changes = 0;
     double deepest = -1, before = left.slope;
     for (int k = 0; k <= 60; ++k) {
@@ -139,7 +146,7 @@ TEST_CASE("judge: what is simple has one extremum at most, what is excluded does
       REQUIRE(deepest < 0);
     } else if (judgement.verdict == detail::Verdict::simple) {
       ++simple;
-      one_sign += 0 < left.slope * right.slope;
+      one_sign += i < 6000 && 0 < left.slope * right.slope;
       REQUIRE(changes <= 1);
       REQUIRE((changes == 1) == (left.slope * right.slope < 0));
     } else {
@@ -153,4 +160,6 @@ TEST_CASE("judge: what is simple has one extremum at most, what is excluded does
   CHECK(simple > 1000);
   CHECK(one_sign > 1860);  // 1,830 without bounds of the slope from both sides
   CHECK(open_with_more > 3);
+  CAPTURE(far_yawed);
+  CHECK(far_yawed > 20);
 }

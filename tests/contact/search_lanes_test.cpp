@@ -125,12 +125,13 @@ TEST_CASE("extremum_guess, boundary_guess: in lanes what they are for each", "[c
     Lanes<double> left_is_inside;
     for (int lane = 0; lane < lane_count; ++lane) {
       const auto i = static_cast<std::size_t>(lane);
+      const double turn = block % 2 == 0 ? 1 : -1;  // maxima, and minima
       const auto strip = [&](double lateral, double penetration, double slope) {
         detail::LocusStrip<double> result;
         result.wheel_lateral = lateral;
         result.penetration = penetration;
-        result.slope = slope;
-        result.slope_rate = -std::exp(random.between(-1, 5));
+        result.slope = turn * slope;
+        result.slope_rate = -turn * std::exp(random.between(-1, 5));
         result.exists = true;
         return result;
       };

@@ -442,7 +442,7 @@ class StripWalk {
     last_ = Strip();
   }
 
-  // Where the penetration passes the threshold between two neighbouring strips.
+  // Where the penetration passes the threshold between two neighbouring strips. @pre zone_ends
   [[nodiscard]] T boundary(const Strip& left, const Strip& right) {
     if (left.wheel_lateral == right.wheel_lateral) return left.wheel_lateral;
     const T& threshold = options_.penetration_threshold;

@@ -50,7 +50,7 @@ template <Real T>
 
 /// True unless @p x, or one of @p others, is NaN or infinite. Needs no `<cmath>` classification of
 /// @p T.
-template <Real T, class... More>
+template <Real T, std::same_as<T>... More>
 [[nodiscard]] constexpr bool is_finite(const T& x, const More&... others) {
   return ((x - x) + ... + (others - others)) == T(0);
 }

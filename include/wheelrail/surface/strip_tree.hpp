@@ -92,9 +92,9 @@ struct StripNode {
 template <Real T>
 class StripTree {
  public:
-  /// A tree covers at most so many strips, or one part of so many of the profile where that is more.
-  /// Wider nodes mostly have parts that no line is below.
-  static constexpr int widest_node = 16;
+  /// A tree covers at most so many intervals between strips, or a sixteenth of all where that is more:
+  /// wider nodes mostly have parts that no line is below.
+  static constexpr int widest_tree = 16;
 
   /// @param spacing strips are at most this far apart [m].
   /// @throws std::invalid_argument unless spacing is finite and > 0 and makes at most 100,000
@@ -133,7 +133,7 @@ class StripTree {
     }
     leaves_.resize(strips_.size());
     const int count = static_cast<int>(intervals.size());
-    widest_ = std::max(+widest_node, count / widest_node);
+    widest_ = std::max(int{widest_tree}, count / 16);
     build(intervals, 0, count, profile, nominal_radius);
   }
 
@@ -254,7 +254,7 @@ class StripTree {
   }
 
   T greatest_radius_;
-  int widest_ = 0;  // most intervals of a node
+  int widest_ = 0;  // most intervals of a tree
   std::vector<Strip<T>> strips_;
   // Of the interval before each strip; then of the two from there on, of the four, and so on, as long
   // as there are so many; those over several pieces mean nothing.

@@ -30,7 +30,8 @@ struct Cubic {
     for (int i = 0; i < 2; ++i) t -= value(t) / slope(t);
     return t;
   }
-  // The maximum where side = 1, the minimum where side = -1; not a number where there is none.
+  // The maximum where side = 1, the minimum where side = -1, to rounding that grows where c1 is tiny;
+  // not finite, or not a number, where there is none.
   [[nodiscard]] V extremum(const V& side) const {
     using std::sqrt;
     return c1 / (side * sqrt(V(c2 * c2 - T(3) * c1 * c3)) - c2);
@@ -74,7 +75,7 @@ struct PenetrationCurve {
     const bool is_left = joint == T(1) || (from_left.value(joint) < T(0)) != (from_left.c0 < T(0));
     return is_left ? from_left.near_root(t) : T(T(1) + from_right.near_root(T(t - T(1))));
   }
-  // Where its slope is zero.
+  // Near where its slope is zero.
   [[nodiscard]] T extremum() const {
     const T side = from_left.c1 < T(0) ? T(-1) : T(1);
     const bool is_left = joint == T(1) || (from_left.slope(joint) < T(0)) != (from_left.c1 < T(0));

@@ -39,7 +39,7 @@ struct DeepestStrip {
   bool is_exact = true;
 
   DeepestStrip() = default;
-  DeepestStrip(const LocusStrip<T>& strip)  // on purpose not explicit
+  DeepestStrip(const LocusStrip<T>& strip)  // not explicit, to be assigned as strips are
       : wheel_lateral(strip.wheel_lateral),
         penetration(strip.penetration),
         piece(strip.piece),

@@ -34,7 +34,7 @@ class LocusStrips {
     }
   }
 
-  // The same, put into `result`: returned from there it would be copied.
+  // The same, put into `result`, which saves a copy. Not for dual numbers, as below.
   [[gnu::flatten]] void put(int piece, const T& u, Strip& result) {
     result = strip(piece, u, wheel_.profile().evaluate(piece, u));
   }

@@ -1,5 +1,5 @@
 #pragma once
-// NearRuns in lanes: one walk over a wheel's strip tree for several placements.
+// NearRuns in lanes: one walk over a wheel's strip trees for several placements.
 // May include: core, numerics, profile, surface, contact/placement.
 
 #include <wheelrail/contact/detail/locus_strip_lanes.hpp>

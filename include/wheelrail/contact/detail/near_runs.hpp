@@ -1,6 +1,6 @@
 #pragma once
 // The part of a contact search that looks nowhere near the contacts: 1 of penetration_bounds.hpp, by
-// which whole branches of a wheel's strip tree are left out. May include: core, numerics, profile,
+// which whole branches of a wheel's strip trees are left out. May include: core, numerics, profile,
 // surface, contact/placement.
 
 #include <wheelrail/contact/detail/locus_strip.hpp>
@@ -74,7 +74,7 @@ void for_each_piece(const StripTree<T>& tree, const Visit& visit) {
 }
 
 // The runs of strips that no line above the rail keeps off it. What is called for each node is
-// always inlined: a search spends a quarter of its time here.
+// always inlined: a search spends much of its time here.
 template <Profile P, Profile R>
 class NearRuns {
  public:

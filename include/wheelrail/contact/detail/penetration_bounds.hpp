@@ -150,7 +150,7 @@ class PenetrationBounds {
     if (!(sine_squared + yaw * (slope_squared + radius * hollow) < constant<T>(0.5L))) {
       return {Verdict::open, radius_, false};
     }
-    // cos s_w is not less, its inverse not greater: no root and no division is waited for.
+    // cos s_w is not less, its inverse not greater: no root and no division is waited for here.
     const T cosine = T(1) - sine_squared, secant = T(1) + sine_squared;
     const T steep = slope * secant;
     const T twist = yaw * radius * shape.third * secant;

@@ -112,7 +112,7 @@ class RailConvexity {
       (lateral < curvatures_[middle].lower ? end : piece) = middle;
     }
     const std::size_t first = piece;
-    piece += (end - piece) / 2;  // most feet are near the middle
+    piece += (end - piece) / 2;  // most feet are near the middle of a rail head
     while (first < piece && lateral < curvatures_[piece].lower) --piece;
     while (piece + 1 < end && !(lateral < curvatures_[piece + 1].lower)) ++piece;
     return piece;
