@@ -146,13 +146,13 @@ void add_searches(const Setting& s) {
     SearchMemory<double> memory(s.real);
     run(state, s.path, [&](const auto& pose) { return find_contact(s.real, rail, pose, memory); });
   });
-  for (const auto& [count, poses] : s.by_patches) {
-    add("patches/" + std::to_string(count), [&rail, &s, &poses = poses](auto& state) {
+  for (const auto& [count, with_count] : s.by_patches) {
+    add("patches/" + std::to_string(count), [&rail, &s, &poses = with_count](auto& state) {
       run(state, poses, [&](const auto& pose) { return find_contact(s.real, rail, pose); });
     });
   }
-  for (const auto& [yaw, poses] : s.by_yaw) {
-    add("yaw_mrad/" + std::to_string(yaw), [&rail, &s, &poses = poses](auto& state) {
+  for (const auto& [yaw, with_yaw] : s.by_yaw) {
+    add("yaw_mrad/" + std::to_string(yaw), [&rail, &s, &poses = with_yaw](auto& state) {
       run(state, poses, [&](const auto& pose) { return find_contact(s.real, rail, pose); });
     });
   }

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Build the paper's study on Debian 12, run it and draw its figures: everything lands in build/study.
+# Build the paper's study on Debian 12 or 13, run it and draw its figures: all lands in build/study.
 set -eu
 
 root=$(cd -- "$(dirname -- "$0")/.." && pwd)

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Build and run all tests on Debian 12, with g++ or with clang++; warnings as errors.
+# Build and run all tests on Debian 12 or 13, with g++ or with clang++; warnings as errors.
 set -eu
 
 usage() {
@@ -46,7 +46,7 @@ fi
 for compiler in $compilers; do
   case $compiler in
     g++) ;;
-    clang++) packages="$packages clang libclang-rt-14-dev" ;;
+    clang++) packages="$packages clang libclang-rt-dev" ;;
     *) usage >&2; exit 2 ;;
   esac
 done

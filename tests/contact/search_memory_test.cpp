@@ -8,6 +8,7 @@
 #include "support/placed.hpp"
 
 using namespace wheelrail;
+using Catch::Matchers::ContainsSubstring;
 using wheelrail_test::placed;
 
 TEST_CASE("SearchMemory: holds for one rail, one threshold and a wheel that moves little",
@@ -81,11 +82,11 @@ TEST_CASE("SearchMemory: no point of the wheel moves farther than the skin unnot
 TEST_CASE("SearchMemory: a skin out of range is named", "[contact][bad-input]") {
   const Wheel wheel(s1002<double>(), 0.43);
   CHECK_THROWS_WITH(SearchMemory<double>(wheel, 0.0),
-                    Catch::Matchers::Contains("search memory: skin is 0"));
+                    ContainsSubstring("search memory: skin is 0"));
   CHECK_THROWS_WITH(SearchMemory<double>(wheel, std::nan("")),
-                    Catch::Matchers::Contains("search memory: skin"));
+                    ContainsSubstring("search memory: skin"));
   CHECK_THROWS_WITH(SearchMemory<double>(wheel, 0.01),
-                    Catch::Matchers::Contains("search memory: skin is 0.01"));
+                    ContainsSubstring("search memory: skin is 0.01"));
 }
 
 TEST_CASE("SearchMemory: allows for less motion where the wheel moves less", "[contact]") {

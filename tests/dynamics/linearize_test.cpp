@@ -245,14 +245,16 @@ TEST_CASE("linearize: external wrenches take part, and a body left out is held",
 
 TEST_CASE("linearize: nothing sensible, nothing finite, nothing at all",
           "[dynamics][linearize][bad-input]") {
-  using Catch::Matchers::Contains;
+  using Catch::Matchers::ContainsSubstring;
   const System system(table());
-  CHECK_THROWS_WITH(linearized(system, {{0, z}, {1, z}}), Contains("coordinates[1].body is 1"));
+  CHECK_THROWS_WITH(linearized(system, {{0, z}, {1, z}}),
+                    ContainsSubstring("coordinates[1].body is 1"));
   CHECK_THROWS_WITH(linearized(system, {{0, z}, {0, x}, {0, z}}),
-                    Contains("coordinates[2] is coordinates[0] again"));
+                    ContainsSubstring("coordinates[2] is coordinates[0] again"));
   CHECK_THROWS_WITH(linearized(system, all_six, {.displacement = 0}),
-                    Contains("displacement is 0"));
-  CHECK_THROWS_WITH(linearized(system, all_six, {.velocity = -1}), Contains("velocity is -1"));
+                    ContainsSubstring("displacement is 0"));
+  CHECK_THROWS_WITH(linearized(system, all_six, {.velocity = -1}),
+                    ContainsSubstring("velocity is -1"));
 
   const std::vector<Wrench<double>> none(1);
   const auto about = [&](const Eigen::VectorXd& state, const Coordinates& coordinates) {
@@ -260,7 +262,8 @@ TEST_CASE("linearize: nothing sensible, nothing finite, nothing at all",
   };
   Eigen::VectorXd turning = at_rest(system);
   turning(RigidBodyLayout::angular_velocity_body + 1) = 40;
-  CHECK_THROWS_WITH(about(turning, {{0, z}, {0, yaw}}), Contains("coordinates[1] is a rotation"));
+  CHECK_THROWS_WITH(about(turning, {{0, z}, {0, yaw}}),
+                    ContainsSubstring("coordinates[1] is a rotation"));
   CHECK(about(turning, {{0, z}}).state_matrix.rows() == 2);
 
   Eigen::VectorXd broken = at_rest(system);

@@ -105,15 +105,16 @@ std::string message_of(double mass, const V3& moments_body) {
 
 TEST_CASE("RigidBody: what no body can have is refused by name",
           "[dynamics][rigid_body][bad-input]") {
-  using Catch::Matchers::Contains;
+  using Catch::Matchers::ContainsSubstring;
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THAT(message_of(0.0, V3(1, 1, 1)), Contains("mass is 0"));
-  CHECK_THAT(message_of(nan, V3(1, 1, 1)), Contains("mass is"));
-  CHECK_THAT(message_of(1.0, V3(1, -2, 1)), Contains("moments_body.y is -2"));
-  CHECK_THAT(message_of(1.0, V3(1, 1, nan)), Contains("moments_body.z is"));
+  CHECK_THAT(message_of(0.0, V3(1, 1, 1)), ContainsSubstring("mass is 0"));
+  CHECK_THAT(message_of(nan, V3(1, 1, 1)), ContainsSubstring("mass is"));
+  CHECK_THAT(message_of(1.0, V3(1, -2, 1)), ContainsSubstring("moments_body.y is -2"));
+  CHECK_THAT(message_of(1.0, V3(1, 1, nan)), ContainsSubstring("moments_body.z is"));
   CHECK_THAT(message_of(1.0, V3(1, 2.5, 1)),
-             Contains("moments_body.y is 2.5") && Contains("sum of the other two, 2 kg m2"));
-  CHECK_THAT(message_of(1.0, V3(5, 2, 1)), Contains("moments_body.x is 5"));
+             ContainsSubstring("moments_body.y is 2.5") &&
+                 ContainsSubstring("sum of the other two, 2 kg m2"));
+  CHECK_THAT(message_of(1.0, V3(5, 2, 1)), ContainsSubstring("moments_body.x is 5"));
   CHECK_NOTHROW(RigidBody<double>(1.0, V3(0.1, 0.2, 0.1 + 0.2)));  // a flat plate
   CHECK_NOTHROW(RigidBody<double>(1.0, V3(0.8, 0.1, 0.7)));        // 0.1 + 0.7 < 0.8
   CHECK_NOTHROW(RigidBody<float>(1.0F, Vector3<float>(0.7F, 0.3F, 0.4F)));

@@ -78,12 +78,13 @@ TEST_CASE("TorsionSpring: the rate is that of the angle, the power that of the e
 }
 
 TEST_CASE("TorsionSpring: bad values are named", "[dynamics][torsion_spring][bad-input]") {
-  using Catch::Matchers::Contains;
+  using Catch::Matchers::ContainsSubstring;
   const auto check = [](const TorsionSpring<double>& t) { detail::require_valid(t, "bar", 2); };
   CHECK_NOTHROW(check({.a = 0, .b = 1, .stiffness = 1}));
-  CHECK_THROWS_WITH(check({.a = 0, .b = 1, .stiffness = -1}), Contains("bar.stiffness is -1"));
-  CHECK_THROWS_WITH(check({.a = 0, .b = 1, .damping = -2}), Contains("bar.damping is -2"));
-  CHECK_THROWS_WITH(check({.a = 0, .b = 2}), Contains("bar.b is 2"));
+  CHECK_THROWS_WITH(check({.a = 0, .b = 1, .stiffness = -1}),
+                    ContainsSubstring("bar.stiffness is -1"));
+  CHECK_THROWS_WITH(check({.a = 0, .b = 1, .damping = -2}), ContainsSubstring("bar.damping is -2"));
+  CHECK_THROWS_WITH(check({.a = 0, .b = 2}), ContainsSubstring("bar.b is 2"));
 }
 
 TEST_CASE("TorsionSpring: any scalar", "[dynamics][torsion_spring]") {

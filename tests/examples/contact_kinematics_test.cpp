@@ -12,7 +12,7 @@
 
 using namespace wheelrail;
 using namespace wheelrail_test;
-using Catch::Matchers::Contains;
+using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
@@ -91,7 +91,7 @@ void check_refused(const Strings& arguments, const Strings& words) {
   const auto result = run_without_gnuplot(all);
   CAPTURE(arguments, result.exit_code, result.output, result.error);
   CHECK(refuses(result, program));
-  for (const std::string& word : words) CHECK_THAT(result.error, Contains(word));
+  for (const std::string& word : words) CHECK_THAT(result.error, ContainsSubstring(word));
   CHECK(names_in(scratch.path()).empty());
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("contact_kinematics: --help says what there is, with units and signs",
                            "left less right",
                            "14 mm below",
                            "default 1.435)"}) {
-    CHECK_THAT(result.output, Contains(word));
+    CHECK_THAT(result.output, ContainsSubstring(word));
   }
 }
 
@@ -141,9 +141,9 @@ TEST_CASE("contact_kinematics: S1002 on 60E1 1:40 gives the known conicities",
   const Output output = output_of({});
   CHECK(output.conicity.at(2) == Approx(0.2213).margin(1e-4));
   CHECK(output.conicity.at(3) == Approx(0.1771).margin(1e-4));
-  CHECK_THAT(output.text, Contains("amplitude 2 mm: 0.2213"));
-  CHECK_THAT(output.text, Contains("-8 to 8 mm: touching"));
-  CHECK_THAT(output.text, !Contains("no conicity"));
+  CHECK_THAT(output.text, ContainsSubstring("amplitude 2 mm: 0.2213"));
+  CHECK_THAT(output.text, ContainsSubstring("-8 to 8 mm: touching"));
+  CHECK_THAT(output.text, !ContainsSubstring("no conicity"));
 
   REQUIRE(output.conicity.x.size() == 61);
   CHECK(output.conicity.x.front() == 1);
@@ -191,8 +191,8 @@ TEST_CASE("contact_kinematics: an odd number of steps has its own shifts", "[exa
   // Not as far as these amplitudes: said, and empty.
   CHECK(std::isnan(output.conicity.at(5)));
   CHECK(output.conicity.at(3) == Approx(0.1771).epsilon(0.03));
-  CHECK_THAT(output.text, Contains("no conicity at "));
-  CHECK_THAT(output.text, Contains("to 7 mm: out_of_range"));
+  CHECK_THAT(output.text, ContainsSubstring("no conicity at "));
+  CHECK_THAT(output.text, ContainsSubstring("to 7 mm: out_of_range"));
 }
 
 TEST_CASE("contact_kinematics: sampled profiles give nearly what the profiles give",
@@ -217,11 +217,11 @@ TEST_CASE("contact_kinematics: sampled profiles give nearly what the profiles gi
       CHECK(read.conicity.at(amplitude) ==
             Approx(named.conicity.at(amplitude)).epsilon(noise.tolerance));
     }
-    CHECK_THAT(read.text, Contains("SIMPACK, 1001 points"));
-    CHECK_THAT(read.text, Contains("unit: mm (stated in the file)"));
-    CHECK_THAT(read.text, Contains("value grows out of the body (detected)"));
-    CHECK_THAT(read.text, Contains("turned round"));
-    CHECK_THAT(read.text, Contains("table, 1001 points"));
+    CHECK_THAT(read.text, ContainsSubstring("SIMPACK, 1001 points"));
+    CHECK_THAT(read.text, ContainsSubstring("unit: mm (stated in the file)"));
+    CHECK_THAT(read.text, ContainsSubstring("value grows out of the body (detected)"));
+    CHECK_THAT(read.text, ContainsSubstring("turned round"));
+    CHECK_THAT(read.text, ContainsSubstring("table, 1001 points"));
   }
 }
 
@@ -248,7 +248,7 @@ TEST_CASE("contact_kinematics: EN 15302 from files, rails laid by their origin, 
       ++compared;
     }
     CHECK(compared >= 55);
-    CHECK_THAT(output.text, Contains("laid by its origin: +0.0974 mm"));
+    CHECK_THAT(output.text, ContainsSubstring("laid by its origin: +0.0974 mm"));
   }
   // Other wheels on the right: mirrored, the difference is the same with both signs turned.
   Strings one{"--wheel",       files / "a.csv",          "--right-wheel",
@@ -263,8 +263,8 @@ TEST_CASE("contact_kinematics: EN 15302 from files, rails laid by their origin, 
     CHECK(as_is.rolling.at(shift) == Approx(-mirrored.rolling.at(-shift)).margin(1e-5));
   }
   CHECK(std::abs(as_is.rolling.at(0)) > 0.05);
-  CHECK_THAT(as_is.text, Contains("right wheel: "));
-  CHECK_THAT(as_is.text, Contains("nominal radius 460.1 mm"));
+  CHECK_THAT(as_is.text, ContainsSubstring("right wheel: "));
+  CHECK_THAT(as_is.text, ContainsSubstring("nominal radius 460.1 mm"));
 }
 
 TEST_CASE("contact_kinematics: a rail of its own on the right", "[examples]") {
@@ -276,7 +276,7 @@ TEST_CASE("contact_kinematics: a rail of its own on the right", "[examples]") {
     CHECK(one.rolling.at(shift) == Approx(-other.rolling.at(-shift)).margin(1e-5));
   }
   CHECK(std::abs(one.rolling.at(2) - equal.rolling.at(2)) > 1e-3);
-  CHECK_THAT(one.text, Contains("right rail: uic50"));
+  CHECK_THAT(one.text, ContainsSubstring("right rail: uic50"));
 }
 
 TEST_CASE("contact_kinematics: bad points are refused, or dropped and listed",
@@ -289,8 +289,8 @@ TEST_CASE("contact_kinematics: bad points are refused, or dropped and listed",
                 {"--wheel: ", "spike.csv", "point 300", "spike", "--repair"});
   const Output repaired = output_of(
       {"--wheel", files / "spike.csv", "--repair", "--noise", "0", "--lateral-shift", "-5:0.1:5"});
-  CHECK_THAT(repaired.text, Contains("repaired: 1 of 501 points dropped, 500 kept"));
-  CHECK_THAT(repaired.text, Contains("point 300"));
+  CHECK_THAT(repaired.text, ContainsSubstring("repaired: 1 of 501 points dropped, 500 kept"));
+  CHECK_THAT(repaired.text, ContainsSubstring("point 300"));
   CHECK(repaired.conicity.at(2) == Approx(0.2213).epsilon(0.02));
 }
 
@@ -310,8 +310,8 @@ TEST_CASE("contact_kinematics: noise is smoothed; without smoothing the failure 
   for (const auto& [amplitude, conicity] : {std::pair(2.0, 0.2213), std::pair(3.0, 0.1771)}) {
     CHECK(smoothed.conicity.at(amplitude) == Approx(conicity).epsilon(0.03));
   }
-  CHECK_THAT(smoothed.text, Contains("MiniProf, 1001 points"));
-  CHECK_THAT(smoothed.text, Contains("smoothed: noise level "));
+  CHECK_THAT(smoothed.text, ContainsSubstring("MiniProf, 1001 points"));
+  CHECK_THAT(smoothed.text, ContainsSubstring("smoothed: noise level "));
 
   // A rail of a thousand waves has more contacts than a search returns.
   const TemporaryDirectory scratch;
@@ -321,9 +321,9 @@ TEST_CASE("contact_kinematics: noise is smoothed; without smoothing the failure 
   const auto result = run_without_gnuplot(rough);
   CHECK(result.exit_code == 3);
   CHECK(result.output.empty());
-  CHECK_THAT(result.error, Contains("contact_kinematics: lateral shift "));
-  CHECK_THAT(result.error, Contains("wheel: not_converged"));
-  CHECK_THAT(result.error, Contains("concave zones"));
+  CHECK_THAT(result.error, ContainsSubstring("contact_kinematics: lateral shift "));
+  CHECK_THAT(result.error, ContainsSubstring("wheel: not_converged"));
+  CHECK_THAT(result.error, ContainsSubstring("concave zones"));
   CHECK(names_in(scratch.path()).empty());
 }
 
@@ -338,8 +338,8 @@ TEST_CASE("contact_kinematics: where the wheelset does not touch there is no val
   CHECK(std::isnan(output.rolling.at(8)));
   CHECK(!std::isnan(output.rolling.at(0)));
   CHECK(std::isnan(output.conicity.at(7)));
-  CHECK_THAT(output.text, Contains("profile_end"));
-  CHECK_THAT(output.text, Contains("to 7 mm: out_of_range"));
+  CHECK_THAT(output.text, ContainsSubstring("profile_end"));
+  CHECK_THAT(output.text, ContainsSubstring("to 7 mm: out_of_range"));
   bool has_status = false, has_other = false;
   for (const std::string& line : output.contacts) {
     has_status = has_status || line.ends_with(",left,,,,,,,,,profile_end");
@@ -383,9 +383,9 @@ TEST_CASE("contact_kinematics: the summary alone without --output", "[examples]"
   const auto result = run_program(program, {"--lateral-shift", "-3:0.5:3"});
   CHECK(result.exit_code == 0);
   CHECK(result.error.empty());
-  CHECK_THAT(result.output, Contains("wheels: s1002"));
-  CHECK_THAT(result.output, Contains("lateral shifts: 13, from -3 to 3 mm"));
-  CHECK_THAT(result.output, Contains("amplitude 7 mm: none, out_of_range"));
+  CHECK_THAT(result.output, ContainsSubstring("wheels: s1002"));
+  CHECK_THAT(result.output, ContainsSubstring("lateral shifts: 13, from -3 to 3 mm"));
+  CHECK_THAT(result.output, ContainsSubstring("amplitude 7 mm: none, out_of_range"));
 }
 
 TEST_CASE("contact_kinematics: the picture, or how to draw it later", "[examples]") {
@@ -393,7 +393,7 @@ TEST_CASE("contact_kinematics: the picture, or how to draw it later", "[examples
   const Strings arguments{"--lateral-shift", "-5:0.5:5", "--output", scratch / "it's run"};
   const auto without = run_without_gnuplot(arguments);
   CHECK(without.exit_code == 0);
-  CHECK_THAT(without.output, Contains("there is no gnuplot; with it, draw by\n  cd "));
+  CHECK_THAT(without.output, ContainsSubstring("there is no gnuplot; with it, draw by\n  cd "));
   if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) return;
   const auto with = run_program(program, arguments);
   CAPTURE(with.error);

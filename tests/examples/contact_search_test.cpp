@@ -11,7 +11,7 @@
 
 using namespace wheelrail;
 using namespace wheelrail_test;
-using Catch::Matchers::Contains;
+using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
@@ -88,7 +88,7 @@ ProgramResult search(Strings arguments, const std::string& input) {
 void check_refused(const ProgramResult& result, const std::string& why) {
   CAPTURE(result.exit_code, result.output, result.error);
   CHECK(refuses(result, "contact_search"));
-  CHECK_THAT(result.error, Contains(why));
+  CHECK_THAT(result.error, ContainsSubstring(why));
 }
 
 }  // namespace
@@ -102,7 +102,7 @@ TEST_CASE("contact_search: --help says what there is, with units", "[examples]")
          {"--wheel", "--rail", "--nominal-radius", "--profile-spacing", "--gauge", "--inclination",
           "--method", "--poses", "--lateral-shift", "--height", "--roll", "--yaw", "[m]", "[rad]",
           "default 0.43)", "default 1.5)", "default 1.435)", "default 0.05)"}) {
-      CHECK_THAT(result.output, Contains(name));
+      CHECK_THAT(result.output, ContainsSubstring(name));
     }
   }
 }
@@ -284,7 +284,8 @@ TEST_CASE("contact_search: a patch that the minimum distance method misses is sa
     CAPTURE(lateral_shift, result.output, result.error);
     CHECK(result.exit_code == 3);
     CHECK(lines_of(result.error).size() == 1);
-    CHECK_THAT(result.error, Contains("pose 0, left wheel") && Contains("convex"));
+    CHECK_THAT(result.error,
+               ContainsSubstring("pose 0, left wheel") && ContainsSubstring("convex"));
   }
 }
 

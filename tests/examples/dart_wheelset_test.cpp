@@ -4,7 +4,7 @@
 #include "host_program.hpp"
 
 using namespace wheelrail_test;
-using Catch::Matchers::Contains;
+using Catch::Matchers::ContainsSubstring;
 
 namespace {
 const std::string program = "dart_wheelset";
@@ -15,7 +15,7 @@ TEST_CASE("dart_wheelset: converges to the embedded integrator with the step, fo
   const auto result = run_host(program, "step", {});
   INFO(result.program.output);
   CHECK(result.program.exit_code == 0);
-  CHECK_THAT(result.program.output, Contains("within_bound: yes\n"));
+  CHECK_THAT(result.program.output, ContainsSubstring("within_bound: yes\n"));
   REQUIRE(result.rows.size() == 3);
   double step = 1e-4;
   for (std::size_t k = 0; k < 3; ++k, step /= 2) {
@@ -48,7 +48,7 @@ TEST_CASE("dart_wheelset: --help says what there is, bad input is refused",
   CHECK(help.exit_code == 0);
   for (const char* text : {"--duration", "--step", "--embedded-tolerance", "--output",
                            "0.02 m/s times the step", "[s]"}) {
-    CHECK_THAT(help.output, Contains(text));
+    CHECK_THAT(help.output, ContainsSubstring(text));
   }
   check_refused(program, {"--duration", "11"}, "--duration is 11");
   check_refused(program, {"--step", "3e-4"}, "--step is 3e-4, but must go into 0.01 s");

@@ -4,7 +4,7 @@
 #include "run_program.hpp"
 
 using namespace wheelrail_test;
-using Catch::Matchers::Contains;
+using Catch::Matchers::ContainsSubstring;
 
 TEST_CASE("first_contact: prints a patch of each wheel and the force", "[examples]") {
   const auto result = run_program("first_contact", {});
@@ -15,7 +15,7 @@ TEST_CASE("first_contact: prints a patch of each wheel and the force", "[example
   CHECK(lines[0].starts_with("left wheel, "));
   CHECK(lines[1].starts_with("right wheel, "));
   CHECK(lines[2].starts_with("on the wheelset: "));
-  CHECK_THAT(result.output, !Contains("nan"));
+  CHECK_THAT(result.output, !ContainsSubstring("nan"));
 }
 
 TEST_CASE("first_contact: program and output stand in the README verbatim", "[examples]") {
@@ -26,8 +26,8 @@ TEST_CASE("first_contact: program and output stand in the README verbatim", "[ex
   CHECK(lines_of(source).size() <= 25);
   REQUIRE(source.ends_with("\n"));
   REQUIRE(result.output.ends_with("\n"));
-  CHECK_THAT(readme, Contains("```cpp\n" + source + "```\n"));
-  CHECK_THAT(readme, Contains("```text\n" + result.output + "```\n"));
+  CHECK_THAT(readme, ContainsSubstring("```cpp\n" + source + "```\n"));
+  CHECK_THAT(readme, ContainsSubstring("```text\n" + result.output + "```\n"));
   // The program comes first: a reader sees what this is before anything else.
   const Strings lines = lines_of(readme);
   const auto begin = std::find(lines.begin(), lines.end(), "```cpp");

@@ -11,7 +11,7 @@
 
 using namespace wheelrail;
 using namespace wheelrail_test;
-using Catch::Matchers::Contains;
+using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
@@ -108,7 +108,7 @@ TEST_CASE("profiles/: README.md has a row for each file, with its number of poin
       REQUIRE(at != std::string::npos);
       CHECK(table.find(start, at + 1) == std::string::npos);
       const std::string row = table.substr(at, table.find('\n', at) - at);
-      CHECK_THAT(row, Contains("| " + std::to_string(points_of(name).size()) + " |"));
+      CHECK_THAT(row, ContainsSubstring("| " + std::to_string(points_of(name).size()) + " |"));
     }
   }
 }
@@ -124,7 +124,7 @@ TEST_CASE("profiles/: every file reads back, in mm, as it was written and withou
       CHECK(file.lateral.value == LateralAxis::field_side);
       CHECK(file.not_applied.empty());
       REQUIRE(!file.comments.empty());
-      CHECK_THAT(file.comments[0], Contains(is_wheel(name) ? "S1002 wheel" : " rail, "));
+      CHECK_THAT(file.comments[0], ContainsSubstring(is_wheel(name) ? "S1002 wheel" : " rail, "));
       CHECK((file.comments[0].find("ASSUMPTION") != std::string::npos) ==
             name.starts_with("uic50"));
       // Short decimal numbers: steps of 1e-6 mm, where measured of 1e-4 mm.
@@ -355,7 +355,7 @@ TEST_CASE("profiles/: the equivalent conicities of README.md", "[examples][regre
       std::snprintf(number, sizeof number, " %.3f |", conicity);
       text += number;
     }
-    CHECK_THAT(readme, Contains(text));
+    CHECK_THAT(readme, ContainsSubstring(text));
   }
 }
 
@@ -363,7 +363,7 @@ TEST_CASE("write_profiles: --help, and what it refuses", "[examples][bad-input]"
   const auto help = run_program("write_profiles", {"--help"});
   CHECK(help.exit_code == 0);
   CHECK(help.error.empty());
-  CHECK_THAT(help.output, Contains("--output DIR"));
+  CHECK_THAT(help.output, ContainsSubstring("--output DIR"));
 
   const TemporaryDirectory scratch;
   write_text(scratch / "file", "text");
@@ -382,7 +382,7 @@ TEST_CASE("write_profiles: --help, and what it refuses", "[examples][bad-input]"
     const auto result = run_program("write_profiles", at.arguments);
     CAPTURE(at.why, result.exit_code, result.output, result.error);
     CHECK(refuses(result, "write_profiles"));
-    CHECK_THAT(result.error, Contains(at.why));
+    CHECK_THAT(result.error, ContainsSubstring(at.why));
   }
   CHECK(names_in(scratch.path()) == Strings{"file"});
 
@@ -390,5 +390,5 @@ TEST_CASE("write_profiles: --help, and what it refuses", "[examples][bad-input]"
   std::filesystem::create_directories(scratch / "b/60e1.rai");
   const auto result = run_program("write_profiles", {"--output", scratch / "b"});
   CHECK(result.exit_code == 2);
-  CHECK_THAT(result.error, Contains("60e1.rai: cannot be written"));
+  CHECK_THAT(result.error, ContainsSubstring("60e1.rai: cannot be written"));
 }

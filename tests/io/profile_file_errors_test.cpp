@@ -9,6 +9,7 @@
 
 using namespace wheelrail;
 using namespace wheelrail_test;
+using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
@@ -211,17 +212,17 @@ TEST_CASE("write_profile, profile_text: refuse what could not be read back", "[i
   const TemporaryDirectory directory;
   auto points = wheel_points();
   CHECK_THROWS_WITH(write_profile(directory / "w.prr", points, wheel),
-                    Catch::Contains("w.prr: the extension is the other kind's"));
+                    ContainsSubstring("w.prr: the extension is the other kind's"));
   CHECK_THROWS_AS(write_profile(directory / "none/w.prw", points, wheel), std::runtime_error);
   CHECK_THROWS_AS(write_profile(directory.path(), points, wheel), std::runtime_error);
   for (const std::string comment : {"", "***", "two\nlines", "a\rb", "a\x01"}) {
     CHECK_THROWS_WITH(profile_text(points, wheel, {.comments = {comment}}),
-                      Catch::Contains("but must be one line with a letter or digit"));
+                      ContainsSubstring("but must be one line with a letter or digit"));
   }
   CHECK_THROWS_WITH(profile_text(ProfilePoints<double>{{1, 2, 3}, {1, 2, 3}}, wheel),
-                    Catch::Contains("there are 3 laterals and 3 values"));
+                    ContainsSubstring("there are 3 laterals and 3 values"));
   CHECK_THROWS_WITH(profile_text(ProfilePoints<double>{{1, 2, 3, 4}, {1, 2, 3}}, wheel),
-                    Catch::Contains("there are 4 laterals and 3 values"));
+                    ContainsSubstring("there are 4 laterals and 3 values"));
   points.value[5] = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(write_profile(directory / "w.prw", points, wheel),
                     "profile file: value of point 5 is nan, but must be finite");

@@ -12,6 +12,7 @@
 
 using namespace wheelrail;
 using namespace wheelrail_test;
+using Catch::Matchers::ContainsSubstring;
 
 namespace {
 
@@ -122,14 +123,14 @@ TEST_CASE("parse_profile: what is not clear is refused, and read where an option
   }
   const std::string text = rows(cone, 1, 1);
   CHECK_THROWS_WITH(parse_profile(text, "cone.txt", wheel),
-                    Catch::StartsWith("cone.txt:1: the points reach ") &&
-                        Catch::Contains("must be 1.5 times") && Catch::Contains("option"));
+                    Catch::Matchers::StartsWith("cone.txt:1: the points reach ") &&
+                        ContainsSubstring("must be 1.5 times") && ContainsSubstring("option"));
   const auto file = parse_profile(
       text, "cone.txt", wheel, {.value = ValueAxis::outward, .lateral = LateralAxis::field_side});
   CHECK(file.points.lateral == cone.lateral);
   CHECK(file.value.basis == ReadingBasis::forced);
   CHECK_THROWS_WITH(parse_profile(rows(hump, 1, 1), "hump.txt", wheel),
-                    Catch::Contains("0.4 to 0.6") && Catch::Contains("lateral axis"));
+                    ContainsSubstring("0.4 to 0.6") && ContainsSubstring("lateral axis"));
   CHECK(parse_profile(rows(hump, 1, 1), "h", wheel, {.lateral = LateralAxis::gauge_side}).reversed);
 }
 
@@ -137,7 +138,7 @@ TEST_CASE("parse_profile: options go before what a file says", "[io]") {
   const auto points = wheel_points();
   const std::string text = profile_text(points, wheel, {.unit = LengthUnit::millimetre});
   CHECK_THROWS_WITH(parse_profile(text, "w.csv", wheel, {.unit = LengthUnit::metre}),
-                    Catch::StartsWith("w.csv:2: the profile is 129.5 m wide"));
+                    Catch::Matchers::StartsWith("w.csv:2: the profile is 129.5 m wide"));
   const auto file = parse_profile(text, "w.csv", wheel,
                                   {.unit = LengthUnit::millimetre,
                                    .value = ValueAxis::inward,
@@ -151,7 +152,7 @@ TEST_CASE("parse_profile: options go before what a file says", "[io]") {
   CHECK(one.format == ProfileFormat::miniprof);
   CHECK_THROWS_WITH(
       parse_profile("XYPoints=4\n0 0\n", "w", wheel, {.format = ProfileFormat::simpack}),
-      Catch::Contains("w:1: 'XYPoints=4' stands in no section"));
+      ContainsSubstring("w:1: 'XYPoints=4' stands in no section"));
 }
 
 TEST_CASE("parse_profile: a SIMPACK file as its program writes it", "[io]") {

@@ -229,31 +229,32 @@ TEST_CASE("CubicSpline: queries do not allocate and pass NaN on",
 
 TEST_CASE("CubicSpline: bad data is refused with its place",
           "[numerics][cubic_spline][bad-input]") {
-  using Catch::Matchers::Contains;
+  using Catch::Matchers::ContainsSubstring;
   using Spline = CubicSpline<double>;
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto message = [](const Nodes& nodes, const Nodes& values) {
     return message_of([&] { Spline(nodes, values); });
   };
   CHECK(message({0, 1, 2, 3}, {1, 2, 3, 4}).empty());
-  CHECK_THAT(message({0, 1, 2, 3}, {1, 2, 3}), Contains("4 nodes and 3 values"));
-  CHECK_THAT(message({0, 1, 2}, {1, 2, 3}), Contains("at least 4"));
-  CHECK_THAT(message({}, {}), Contains("0 nodes"));
-  CHECK_THAT(message({0, 1, 1, 3}, {1, 2, 3, 4}), Contains("node 2 is 1") && Contains("greater"));
-  CHECK_THAT(message({0, 1, nan, 3}, {1, 2, 3, 4}), Contains("node 2 is nan"));
-  CHECK_THAT(message({0, 1, 2, 3}, {1, nan, 3, 4}), Contains("value 1 is nan"));
+  CHECK_THAT(message({0, 1, 2, 3}, {1, 2, 3}), ContainsSubstring("4 nodes and 3 values"));
+  CHECK_THAT(message({0, 1, 2}, {1, 2, 3}), ContainsSubstring("at least 4"));
+  CHECK_THAT(message({}, {}), ContainsSubstring("0 nodes"));
+  CHECK_THAT(message({0, 1, 1, 3}, {1, 2, 3, 4}),
+             ContainsSubstring("node 2 is 1") && ContainsSubstring("greater"));
+  CHECK_THAT(message({0, 1, nan, 3}, {1, 2, 3, 4}), ContainsSubstring("node 2 is nan"));
+  CHECK_THAT(message({0, 1, 2, 3}, {1, nan, 3, 4}), ContainsSubstring("value 1 is nan"));
   CHECK_THAT(message_of([] {
                Spline({0, 1}, {1, 2}, SplineEnd::natural);
              }),
-             Contains("at least 3"));
+             ContainsSubstring("at least 3"));
   CHECK_THAT(message_of([&] {
                Spline({0, 1, 2}, {1, 2, 3}, 0.0, nan);
              }),
-             Contains("slope at the end is nan"));
+             ContainsSubstring("slope at the end is nan"));
   std::vector<Vector3<double>> points(4, Vector3<double>::Zero());
   points[3].y() = nan;
   CHECK_THAT(message_of([&] {
                CubicSpline<double, Vector3<double>>({0, 1, 2, 3}, points);
              }),
-             Contains("value 3, component 1 is nan"));
+             ContainsSubstring("value 3, component 1 is nan"));
 }

@@ -10,6 +10,7 @@
 #include "support/strict_scalar.hpp"
 
 using namespace wheelrail;
+using Catch::Matchers::ContainsSubstring;
 using wheelrail_test::StrictScalar;
 
 namespace {
@@ -162,7 +163,7 @@ TEST_CASE("repair_points: a contour that goes under the other half is no overhan
   const auto findings = diagnose_points(points, {.gap_ratio = 1000});
   REQUIRE(findings.size() > 40);
   for (const auto& finding : findings) CHECK(finding.defect != PointDefect::overhang);
-  CHECK_THROWS_WITH(repair_points(points), Catch::Contains("(unordered)"));
+  CHECK_THROWS_WITH(repair_points(points), ContainsSubstring("(unordered)"));
 }
 
 TEST_CASE("repair_points: the points of a zig-zag go, the fewest that will do", "[profile]") {
@@ -205,8 +206,8 @@ TEST_CASE("repair_points: refuses what it cannot mend, with index, value and rul
     CHECK(findings[0].defect == PointDefect::several_sections);
     CHECK(findings[0].index == clean.size());
     CHECK(findings[0].measure == Approx(0.1295));
-    CHECK_THROWS_WITH(repair_points(points), Catch::Contains("point 260 at (-0.0695, ") &&
-                                                 Catch::Contains("there are several sections"));
+    CHECK_THROWS_WITH(repair_points(points), ContainsSubstring("point 260 at (-0.0695, ") &&
+                                                 ContainsSubstring("there are several sections"));
   }
   {
     auto points = clean;  // ten points come 20 points too early
@@ -219,9 +220,9 @@ TEST_CASE("repair_points: refuses what it cannot mend, with index, value and rul
     CHECK(findings[0].index == 150);
     CHECK(findings[0].measure == Approx(10e-3));
     CHECK_THROWS_WITH(repair_points(points),
-                      Catch::Contains("point 150 at (0.0155, ") &&
-                          Catch::Contains("lateral is out of order by 0.01 m, but must be by at "
-                                          "most 0.0005 m (unordered)"));
+                      ContainsSubstring("point 150 at (0.0155, ") &&
+                          ContainsSubstring("lateral is out of order by 0.01 m, but must be by at "
+                                            "most 0.0005 m (unordered)"));
   }
   {
     auto points = clean;
@@ -232,8 +233,8 @@ TEST_CASE("repair_points: refuses what it cannot mend, with index, value and rul
     CHECK(findings[0].defect == PointDefect::gap);
     CHECK(findings[0].index == 100);
     CHECK(findings[0].measure == Approx(15.5e-3).epsilon(0.01));
-    CHECK_THROWS_WITH(repair_points(points), Catch::Contains("point 100 at ") &&
-                                                 Catch::Contains("20 times the median distance"));
+    CHECK_THROWS_WITH(repair_points(points), ContainsSubstring("point 100 at ") &&
+                                                 ContainsSubstring("20 times the median distance"));
     CHECK(same(repair_points(points, {.gap_ratio = 40}).points, points));
     CHECK(same(repair_points(points, {.gap_length = 16e-3}).points, points));
   }
@@ -241,17 +242,18 @@ TEST_CASE("repair_points: refuses what it cannot mend, with index, value and rul
     CHECK_THROWS_WITH(repair_points(Points{}),
                       "profile points: there are 0 points left, but there must be at least 4");
     CHECK_THROWS_WITH(repair_points(Points{{0, 1e-3, 2e-3}, {0, 0, 0}}),
-                      Catch::Contains("there are 3 points left"));
+                      ContainsSubstring("there are 3 points left"));
     CHECK_THROWS_WITH(repair_points(Points{{0, 0, 0, 0, 0, 0}, {0, 0, 0, 0, 0, 0}}),
-                      Catch::Contains("there are 1 points left"));
+                      ContainsSubstring("there are 1 points left"));
     CHECK_THROWS_WITH(diagnose_points(Points{{0, 1}, {0}}),
                       "profile points: there are 1 values, but must be as many as laterals, 2");
   }
   {
     auto points = clean;
     for (std::size_t i = 2; i + 2 < points.size(); i += 5) points.value[i] += 2e-3;
-    CHECK_THROWS_WITH(repair_points(points), Catch::Contains("of 260 points are spikes or "
-                                                             "zig-zags, but their share must be"));
+    CHECK_THROWS_WITH(repair_points(points),
+                      ContainsSubstring("of 260 points are spikes or "
+                                        "zig-zags, but their share must be"));
     CHECK(is_function(repair_points(points, {.dropped_share = 0.3}).points));
   }
   CHECK_THROWS_AS(repair_points(clean, {.minimum_step = 0}), std::invalid_argument);

@@ -1,17 +1,15 @@
 #pragma once
-// The one place that knows which Catch2 is installed: v2 (Debian 12) or v3.
+// The one place that knows which Catch2 is installed: v2 (Debian 12) or v3 (Debian 13). The names
+// are v3's.
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
-#include <string>
 using Catch::Approx;
-namespace Catch::Matchers {
-inline auto Contains(const char* text) {
-  return ContainsSubstring(text);
-}
-inline auto Contains(const std::string& text) {
-  return ContainsSubstring(text);
-}
-}  // namespace Catch::Matchers
 #else
 #include <catch2/catch.hpp>
+#include <string>
+namespace Catch::Matchers {
+inline auto ContainsSubstring(const std::string& text) {
+  return Contains(text);
+}
+}  // namespace Catch::Matchers
 #endif

@@ -99,7 +99,7 @@ TEST_CASE(
         wheelset, track, at, WheelsetMotion<T>{{T(10), T(0), T(0)}, {T(0), T(23.3), T(0)}}, steel,
         StripSearch<T>{{.blending_length = 0.003}});
     for (const auto& wheel : forces.wheels) {
-      for (const auto& p : wheel.patches) most += p.patch.share < T(1) ? 1 : 0;
+      for (const auto& p : wheel.patches) most += p.patch.share < T(1) ? 1U : 0U;
     }
     return numbers(forces);
   };
