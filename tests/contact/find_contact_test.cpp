@@ -777,6 +777,86 @@ TEST_CASE("find_contact: a memory changes no bit of the result, whatever it was 
   CHECK(10 * brief_evaluations < 6 * cold_evaluations);
 }
 
+TEST_CASE("find_contact: over a rail's convex corner the deepest point is that of both arcs",
+          "[contact][reference]") {
+  // Two arcs that meet at lateral 0 with slopes 0.05 and -0.05: inside both, a point is as deep as in
+  // the nearer one. The last wheel is more hollow than they are curved: only the corner touches it.
+  constexpr double radius = 0.3, nominal = 0.43;
+  const double centre = radius * std::sin(std::atan(0.05));
+  const double down = -radius * std::cos(std::atan(0.05));
+  using Piece = ProfilePiece<double>;
+  const Rail rail(PiecewiseProfile<double>({Piece::arc(-0.12, 0.0, centre, down, radius, true),
+                                            Piece::arc(0.0, 0.12, -centre, down, radius, true)}));
+  REQUIRE(rail.is_proved_convex());
+  const std::array<PiecewiseProfile<double>, 3> profiles{
+      cone(-0.05), cone(0.025),
+      PiecewiseProfile<double>({Piece::arc(-0.03, 0.03, 0.0, 0.27, 0.27, false)})};
+  std::mt19937_64 generator(20261123U);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (const auto& profile : profiles) {
+    int at_corner = 0, over_lateral_zero = 0, elsewhere = 0;
+    const Wheel wheel(profile, nominal);
+    SearchMemory<double> memory(wheel);
+    for (int i = 0; i < 200; ++i) {
+      WheelPlacement<double> placement;
+      const double roll = 0.1 * uniform(generator);
+      // Every fourth wheel stands with its lateral 0 over the corner.
+      const double shift = i % 4 == 0 ? -nominal * std::sin(roll) : 0.01 * uniform(generator);
+      placement.sin_roll = std::sin(roll);
+      placement.cos_roll = std::cos(roll);
+      const auto depths = [&](double u, double height) {
+        const double r = nominal + profile.evaluate(u).value;
+        const double y = shift + std::cos(roll) * u + std::sin(roll) * r;
+        const double z = height + std::sin(roll) * u - std::cos(roll) * r;
+        return std::array<double, 2>{radius - std::hypot(y - centre, z - down),
+                                     radius - std::hypot(y + centre, z - down)};
+      };
+      const auto depth = [&](double u, double height) {
+        const auto [left, right] = depths(u, height);
+        return std::min(left, right);
+      };
+      const auto deepest = [&](double height) {
+        double lower = profile.lower(), upper = profile.upper();
+        for (int k = 0; k < 120; ++k) {
+          const double third = (upper - lower) / 3;
+          const bool is_left = depth(lower + third, height) > depth(upper - third, height);
+          (is_left ? upper : lower) = is_left ? upper - third : lower + third;
+        }
+        return lower;
+      };
+      double height = nominal;
+      const double wanted = 1e-6 * std::pow(500.0, (uniform(generator) + 1) / 2);
+      for (int k = 0; k < 12; ++k) height += depth(deepest(height), height) - wanted;
+      placement.position_rail = Vector3<double>(0, shift, height);
+      const double u = deepest(height);
+      const bool end_touches =
+          0 < depth(profile.lower(), height) || 0 < depth(profile.upper(), height);
+      if (end_touches) continue;
+      const auto result = find_contact(wheel, rail, placement, memory);
+      CAPTURE(roll, shift, height, u, depth(u, height));
+      REQUIRE(result.status == SearchStatus::complete);
+      CHECK(result.is_proved);
+      REQUIRE(result.patches.size() == 1);
+      const Patch<double>& patch = result.patches[0];
+      CHECK(std::abs(patch.penetration - depth(u, height)) < 1e-13);
+      const auto [left, right] = depths(u, height);
+      const bool is_at_corner = std::abs(left - right) < 1e-13;
+      CHECK(std::abs(patch.wheel_lateral - u) < (is_at_corner ? 1e-12 : 1e-8));
+      ++(is_at_corner ? at_corner : elsewhere);
+      over_lateral_zero += is_at_corner && std::abs(u) < 1e-9 ? 1 : 0;
+      // What a memory keeps of a corner holds for small motions only.
+      for (int k = 0; k < 4; ++k) {
+        placement.position_rail.y() += 4e-5 * uniform(generator);
+        check_same(find_contact(wheel, rail, placement),
+                   find_contact(wheel, rail, placement, memory));
+      }
+    }
+    CHECK(at_corner > 40);
+    CHECK(over_lateral_zero > 10);
+    CHECK((elsewhere > 60) == (&profile != &profiles.back()));
+  }
+}
+
 TEST_CASE("find_contact: zones between two strips are found and counted", "[contact][reference]") {
   // Chebyshev's T8 as a ripple of five crests on a cylinder, all between two strips 5 mm apart.
   const double crest = 20e-6;

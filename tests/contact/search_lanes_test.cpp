@@ -235,6 +235,67 @@ TEST_CASE("find_contacts: with a scalar that converts to nothing", "[contact][sc
   CHECK(patches > 10);
 }
 
+TEST_CASE("bracketed_newton_lanes: each lane takes the steps of bracketed_newton",
+          "[contact][random]") {
+  // Products and sums are kept apart, so that no compiler fuses them in one of the two only.
+  enum class Kind { line, cube, jump, noise };
+  Random random;
+  int converged = 0, unfinished = 0;
+  for (int i = 0; i < 4000; ++i) {
+    Lanes<double> root, steepness, lower, upper, start, rising;
+    std::array<Kind, lane_count> kinds;
+    const double grid = std::pow(10.0, random.between(-9, -2));
+    for (int lane = 0; lane < lane_count; ++lane) {
+      kinds[static_cast<std::size_t>(lane)] = static_cast<Kind>(random.below(4));
+      root[lane] = random.below(4) == 0 ? 0.0 : random.between(-0.05, 0.05);
+      steepness[lane] = (random.below(2) == 0 ? -1 : 1) * random.between(0.1, 5);
+      lower[lane] = root[lane] - random.between(1e-9, 5e-3);
+      upper[lane] = root[lane] + random.between(1e-9, 5e-3);
+      start[lane] = random.between(lower[lane], upper[lane]);
+      rising[lane] = 0 < steepness[lane] ? 1 : 0;
+    }
+    const auto value = [&](int lane, double x) -> ValueAndSlope<double> {
+      const double distance = x - root[lane], k = steepness[lane];
+      switch (kinds[static_cast<std::size_t>(lane)]) {
+        case Kind::cube:
+          return {k * distance * distance * distance, 3 * k * distance * distance};
+        case Kind::jump:
+          return {distance < 0 ? -k : k, 3 * k};
+        case Kind::noise:
+          return {k * distance, std::sin(1e10 * x) < 0 ? -2 * k : 4 * k};
+        default:
+          return {k * distance, k};
+      }
+    };
+    const RootOptions<double> options{.step_tolerance = std::pow(10.0, random.between(-16, -6)),
+                                      .residual_tolerance = 1e-15,
+                                      .maximum_iterations = 16,
+                                      .grid = grid};
+    const auto found = detail::bracketed_newton_lanes<double>(
+        [&](const Lanes<double>& x, Lanes<double>& f, Lanes<double>& slope) {
+          for (int lane = 0; lane < lane_count; ++lane) {
+            const auto at = value(lane, x[lane]);
+            f[lane] = at.value;
+            slope[lane] = at.slope;
+          }
+        },
+        lower, upper, rising, start, options);
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const auto alone = bracketed_newton<double>(
+          [&](double x) { return value(lane, x); }, lower[lane], upper[lane],
+          value(lane, lower[lane]).value, value(lane, upper[lane]).value, start[lane], options);
+      CAPTURE(i, lane, grid, root[lane], steepness[lane], start[lane]);
+      const bool is_converged = alone.status == SolveStatus::converged;
+      CHECK((found.is_converged[lane] != 0) == is_converged);
+      CHECK(found.iterations[lane] == alone.iterations);
+      if (is_converged) CHECK(found.position[lane] == alone.position);
+      ++(is_converged ? converged : unfinished);
+    }
+  }
+  CHECK(converged > 8000);
+  CHECK(unfinished > 1000);
+}
+
 TEST_CASE("any: whether one lane's flag is set", "[contact]") {
   Lanes<double> flags = Lanes<double>::Zero();
   Lanes<float> short_flags = Lanes<float>::Zero();

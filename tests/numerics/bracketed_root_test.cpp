@@ -364,3 +364,49 @@ TEST_CASE("bracketed_newton: on a grid the root does not depend on the start", "
   }
   CHECK(most < 10);
 }
+
+TEST_CASE("bracketed_newton: on a grid a jump is halved down to the tolerance, from any start",
+          "[numerics]") {
+  const RootOptions<double> options{.step_tolerance = 1e-16, .grid = 1e-8};
+  for (const double jump : {0.0, 0.3, -0.7 + 0x1p-30}) {
+    const auto function = [jump](double x) {
+      return ValueAndSlope<double>{(x < jump ? -0.05 : 0.05) + 0.01 * (x - jump), 0.01};
+    };
+    double first = 0;
+    for (int i = 0; i <= 100; ++i) {
+      const double start = -0.4 + 0.8 * i / 100;
+      const auto root = bracketed_newton<double>(function, -0.9, 1.0, function(-0.9).value,
+                                                 function(1.0).value, start, options);
+      CAPTURE(jump, start);
+      REQUIRE(root.status == SolveStatus::converged);
+      CHECK(std::abs(root.position - jump) <= 1e-16 + 4e-16 * std::abs(jump));
+      if (i == 0) first = root.position;
+      CHECK(root.position == first);
+    }
+  }
+}
+
+TEST_CASE("bracketed_newton: on a grid a jump beside a branch's root is within half of it",
+          "[numerics]") {
+  const RootOptions<double> options{.step_tolerance = 1e-16, .grid = 1e-8};
+  double worst = 0;
+  for (int k = 0; k < 40; ++k) {
+    const double jump = 0.3 + 1.3e-10 * k;
+    for (int i = -60; i <= 60; ++i) {
+      // The left branch would pass zero only beyond the jump.
+      const double beyond = jump + 2.5e-10 * i;
+      const auto function = [=](double x) {
+        return ValueAndSlope<double>{x < jump ? x - beyond : 0.05, 1};
+      };
+      const auto root = bracketed_newton<double>(function, -0.9, 1.0, function(-0.9).value,
+                                                 function(1.0).value, 0.2, options);
+      CAPTURE(jump, beyond);
+      REQUIRE(root.status == SolveStatus::converged);
+      const double exact = std::min(jump, beyond);
+      worst = std::max(worst, std::abs(root.position - exact));
+    }
+  }
+  INFO(worst);
+  CHECK(worst > 1e-10);
+  CHECK(worst < 0.51e-8);
+}

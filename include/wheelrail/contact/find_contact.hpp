@@ -72,8 +72,8 @@ class StripWalk {
         strips_(wheel, rail, placement),
         near_(wheel, rail, placement, T(options.penetration_threshold - margin_)),
         bounds_(rail, wheel.strips().greatest_radius(), placement,
-                T(options.penetration_threshold - margin_)) {
-    grid_ = newton_grid(wheel);
+                T(options.penetration_threshold - margin_)),
+        newton_(wheel) {
     is_blending_ = T(0) < options.blending_length;
     resolution_ = blending_resolution(wheel, options);
   }
@@ -379,7 +379,7 @@ class StripWalk {
         },
         left.wheel_lateral, right.wheel_lateral, left.slope, right.slope, position,
         // Where the bodies nearly conform, the slope's rounding outweighs its rate.
-        {.residual_tolerance = T(4) * epsilon<T>(), .grid = grid_});
+        newton_.extremum());
     if (root.status != SolveStatus::converged || lost) {
       result_.status = SearchStatus::not_converged;
       return false;
@@ -463,7 +463,7 @@ class StripWalk {
           return ValueAndSlope<T>{T(at.penetration - threshold), at.slope};
         },
         left.wheel_lateral, right.wheel_lateral, left_side, T(-left_side), start,
-        {.residual_tolerance = margin_ / T(16), .grid = grid_});
+        newton_.zone_end());
     if (memory_ != nullptr) memory_->add_zone_end(root.position, inside.wheel_lateral, depth);
     if (root.status != SolveStatus::converged || lost) {
       result_.status = SearchStatus::not_converged;
@@ -505,7 +505,7 @@ class StripWalk {
   LocusStrips<P, R> strips_;
   NearRuns<P, R> near_;
   PenetrationBounds<R> bounds_;
-  T grid_ = T(0);     // a last Newton step this long leaves an error of rounding [m]
+  NewtonEnds<T> newton_;
   int reached_ = -1;  // the last strip of the wheel that was visited
   Strip last_;
   DeepestStrip<T> deepest_;  // of the zone
@@ -568,10 +568,10 @@ template <Profile P, Profile R>
 /// @return one patch for each zone of the wheel profile whose locus lies under the rail's surface, in
 ///   the order of wheel_lateral; penetration is solved for to rounding, wheel_lateral and the zone's
 ///   ends to the square of sqrt(epsilon) radii over the profile's own radius: hardly more (an end that
-///   zone_is_cut tells of: to a strip). Strips whose foot lies beyond the
-///   rail profile's ends do not count as penetrating. Where a zone holds several local maxima the
-///   deepest is its patch; with SearchOptions::blending_length each is one, its zone ending at the
-///   minima between them.
+///   zone_is_cut tells of: to a strip; over a corner of the rail profile: to 2 sqrt(epsilon) radii,
+///   the penetration to its angle times that). Strips whose foot lies beyond the rail profile's ends
+///   do not count as penetrating. Where a zone holds several local maxima the deepest is its patch;
+///   with SearchOptions::blending_length each is one, its zone ending at the minima between them.
 /// @note Does not allocate. Equations (57), (59), (61), (62) of the paper.
 /// @note Dual numbers: exact derivatives, of patches that stay. At its birth a patch has them but for
 ///   the zone's ends, whose slopes grow beyond bounds, as does that of its place where it merges with a
@@ -585,8 +585,8 @@ template <Profile P, Profile R>
 
 /// The same with a warm start: the same patches to the last bit, whatever @p memory holds, in less
 /// time where the wheel stands nearly as in the search before. (Newton's method may in principle end
-/// on another one of two multiples of its grid between which rounding decides: a difference of
-/// rounding, which no test has met.) options.maximum_evaluations counts what this search evaluates.
+/// on another one of two multiples of its grid between which rounding decides: a difference within
+/// the errors above.) options.maximum_evaluations counts what this search evaluates.
 /// @param memory made for this wheel, used on this rail; one search at a time may use it.
 template <Profile P, Profile R>
 [[nodiscard]] ContactResult<typename P::Scalar> find_contact(

@@ -22,16 +22,18 @@ struct ValueAndSlope {
 template <Real T>
 struct RootOptions {
   /// Stop when the bracket or the last step is at most this wide [unit of x]; 0 means two rounding
-  /// units of x, which a multiple root at x = 0 never meets.
+  /// units of x, which a multiple root or a jump at x = 0 never meets.
   T step_tolerance = T(0);
   /// Stop when |f(x)| <= this [unit of f].
   T residual_tolerance = T(0);
   /// Evaluations of f at most, the bracket's ends not counted.
   int maximum_iterations = 100;
-  /// Of bracketed_newton: f is evaluated at multiples of about this only [unit of x], until a step
-  /// leads back to where it came from: that step's end is the root. So the root does not depend on
-  /// the start, but by what rounding may decide between two neighbouring multiples. Where the slope
-  /// is of no use, it is within one of them. 0: anywhere.
+  /// Of bracketed_newton: f is evaluated at multiples of about this only [unit of x], until a step of
+  /// Newton's leads back to where it came from: that step's end is the root. So the root does not
+  /// depend on the start, but by what rounding may decide between two neighbouring multiples. Where
+  /// the slope is of no use, as at a jump of f, the bracket between two multiples is halved down to
+  /// the tolerance; a jump within half of this beside a root of either branch is within as much. 0:
+  /// anywhere.
   T grid = T(0);
 };
 
@@ -63,8 +65,8 @@ template <Real T>
 
 /// A root of f in [lower, upper] by Newton's method, bisecting whenever a step would leave the
 /// bracket or would not halve it fast enough.
-/// @param f callable: T -> ValueAndSlope<T>; continuous, of opposite signs at the two ends. Several
-///   roots: one of them is found. A slope that is zero, not finite or of the wrong
+/// @param f callable: T -> ValueAndSlope<T>; of opposite signs at the two ends. Several roots,
+///   or jumps over zero: one of them is found. A slope that is zero, not finite or of the wrong
 ///   sign costs iterations only; one too large by a factor k may end up to k tolerances from the
 ///   root.
 /// @param start the first iterate; clamped into the bracket.
@@ -86,7 +88,7 @@ template <Real T, class Function>
   const bool rising = value_lower < T(0);
   const bool on_grid = T(0) < options.grid;
   T x = detail::clamp(on_grid ? detail::rounded_to(start, options.grid) : start, lower, upper);
-  T before = x;
+  bool is_multiple = on_grid && detail::rounded_to(x, options.grid) == x;
   T step_before_last = upper - lower;  // their sizes
   T last_step = step_before_last;
   while (result.iterations < options.maximum_iterations) {
@@ -106,7 +108,7 @@ template <Real T, class Function>
     const T newton_step = detail::magnitude(T(newton - x));
     const bool usable =
         lower < newton && newton < upper &&
-        (T(2) * newton_step <= step_before_last || (on_grid && newton_step <= options.grid));
+        (T(2) * newton_step <= step_before_last || (is_multiple && newton_step <= options.grid));
     const T next = usable ? newton : T(lower + (upper - lower) / T(2));
     step_before_last = last_step;
     last_step = detail::magnitude(T(next - x));
@@ -115,20 +117,15 @@ template <Real T, class Function>
     if (on_grid) {
       // Where the bracket has no multiple near the next iterate, there is no grid.
       const T multiple = detail::rounded_to(next, options.grid);
-      if (multiple == x) {
-        is_back = true;
-      } else if (lower < multiple && multiple < upper) {
-        next_x = multiple;
-        is_back = is_back ||
-                  (multiple == before && 1 < result.iterations && last_step <= T(2) * options.grid);
-      }
+      is_back = is_back || (usable && multiple == x);
+      is_multiple = lower < multiple && multiple < upper;
+      if (is_multiple) next_x = multiple;
     }
     if (is_back) {
       result.position = next;
       result.status = SolveStatus::converged;
       return result;
     }
-    before = x;
     x = next_x;
   }
   result.status = SolveStatus::iteration_limit;

@@ -30,9 +30,8 @@ class BlockWalk {
         placements_(placements),
         options_(options),
         margin_(T(64) * epsilon<T>() * wheel.nominal_radius()),
-        bounds_(rail, wheel.strips().greatest_radius(),
-                T(options.penetration_threshold - margin_)) {
-    grid_ = newton_grid(wheel);
+        bounds_(rail, wheel.strips().greatest_radius(), T(options.penetration_threshold - margin_)),
+        newton_(wheel) {
     items_.reserve(greatest_size);
     strips_.reserve(8 * greatest_size);
     parts_.reserve(8 * greatest_size);
@@ -261,8 +260,7 @@ class BlockWalk {
             slope = found.slope_rate;
           },
           lower.wheel_lateral, upper.wheel_lateral, less<T>(lower.slope, Lanes<T>::Zero()),
-          extremum_guess<T>(lower, upper, options_.penetration_threshold), grid_,
-          T(T(4) * epsilon<T>()));
+          extremum_guess<T>(lower, upper, options_.penetration_threshold), newton_.extremum());
       for (int lane = 0; lane < lanes_used(begin, extrema_.size()); ++lane) {
         Part& part = parts_[extrema_[begin + at(lane)]];
         take_root(root, exist, lane, items_[part.item]);
@@ -384,8 +382,8 @@ class BlockWalk {
             slope = found.slope;
           },
           lower.wheel_lateral, upper.wheel_lateral, rising,
-          boundary_guess<T>(lower, upper, T(1) - rising, options_.penetration_threshold), grid_,
-          T(margin_ / T(16)));
+          boundary_guess<T>(lower, upper, T(1) - rising, options_.penetration_threshold),
+          newton_.zone_end());
       for (int lane = 0; lane < lanes_used(begin, ends_.size()); ++lane) {
         const ZoneEnd& end = ends_[begin + at(lane)];
         Zone& zone = zones_[end.zone];
@@ -464,7 +462,7 @@ class BlockWalk {
   const SearchOptions<T>& options_;
   T margin_;  // as in StripWalk
   PenetrationBoundsLanes<R> bounds_;
-  T grid_ = T(0);
+  NewtonEnds<T> newton_;
   std::vector<Item> items_;
   std::vector<StripOf> strips_;
   std::vector<Part> parts_;

@@ -1,22 +1,40 @@
 #pragma once
 // Where between two strips the penetration has an extremum or passes the threshold, from what the two
-// strips tell: where Newton's method starts. May include: core, numerics, profile, surface,
-// contact/placement.
+// strips tell: where Newton's method starts; and when it ends. May include: core, numerics, profile,
+// surface, contact/placement.
 
 #include <cmath>
 #include <wheelrail/contact/detail/locus_strip.hpp>
+#include <wheelrail/numerics/bracketed_root.hpp>
 #include <wheelrail/surface/wheel.hpp>
 
 namespace wheelrail::detail {
 
-// What Newton's method evaluates multiples of [m] (RootOptions::grid). The root's error is the square
-// of its last step, which is shorter, over the radius of a profile: rounding, but in float.
-template <Profile P>
-[[nodiscard]] typename P::Scalar newton_grid(const Wheel<P>& wheel) {
-  using T = typename P::Scalar;
-  using std::sqrt;
-  return min(T(T(4) * sqrt(epsilon<T>()) * wheel.nominal_radius()), constant<T>(1e-4L));
-}
+// When Newton's method along the profile of a wheel ends. The root's error is the square of the last
+// step, which is shorter than the grid, over the radius of a profile: rounding, but in float.
+template <Real T>
+class NewtonEnds {
+ public:
+  template <Profile P>
+  explicit NewtonEnds(const Wheel<P>& wheel)
+      : rounding_(T(4) * epsilon<T>() * wheel.nominal_radius()) {
+    using std::sqrt;
+    grid_ = min(T(T(4) * sqrt(epsilon<T>()) * wheel.nominal_radius()), constant<T>(1e-4L));
+  }
+
+  // For a zone's end: the residual is one of penetration [m].
+  [[nodiscard]] RootOptions<T> zone_end() const {
+    return {.step_tolerance = rounding_, .residual_tolerance = rounding_, .grid = grid_};
+  }
+  // For an extremum of the penetration: the residual is its slope [-].
+  [[nodiscard]] RootOptions<T> extremum() const {
+    return {.step_tolerance = rounding_, .residual_tolerance = T(4) * epsilon<T>(), .grid = grid_};
+  }
+
+ private:
+  T rounding_;  // [m]
+  T grid_;      // [m]
+};
 
 // A cubic c0 + c1 t + c2 t^2 + c3 t^3 in numbers of V, scalars T or lanes of them.
 template <class V, Real T = V>

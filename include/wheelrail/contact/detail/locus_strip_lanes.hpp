@@ -5,6 +5,7 @@
 #include <wheelrail/contact/detail/locus_strip.hpp>
 #include <wheelrail/contact/placement_batch.hpp>
 #include <wheelrail/contact/rail_foot.hpp>
+#include <wheelrail/numerics/bracketed_root.hpp>
 #include <wheelrail/profile/detail/profile_lanes.hpp>
 #include <wheelrail/profile/rail_head.hpp>
 
@@ -182,46 +183,45 @@ struct RootLanes {
   Lanes<T> is_converged;  // flag
 };
 
-// bracketed_newton on its grid, in lanes: each of them takes the steps that it would take alone, and
-// waits for the others at the point that it was evaluated at last.
+// bracketed_newton on a grid, in lanes: each of them takes the steps that it would take alone, at most
+// 16, and waits for the others at the point that it was evaluated at last.
 // function(x, value, slope): sets the last two. rising: flags of the lanes where f is below zero at
 // the lower end; it must not be zero at the ends.
 template <Real T, class Function>
 [[nodiscard]] RootLanes<T> bracketed_newton_lanes(Function&& function, Lanes<T> lower,
                                                   Lanes<T> upper, const Lanes<T>& rising,
-                                                  const Lanes<T>& start, const T& grid,
-                                                  const T& residual_tolerance) {
+                                                  const Lanes<T>& start,
+                                                  const RootOptions<T>& options) {
   constexpr int maximum_iterations = 16;  // more than any lane is worth waiting for
   using L = Lanes<T>;
-  const T large = grid / epsilon<T>();
-  const L widest_back = all_lanes(T(T(2) * grid));
+  const T large = options.grid / epsilon<T>();
   L x = (start + large) - large;
   x = x.max(lower).min(upper);
-  L before = x, step_before_last = upper - lower, last_step = step_before_last, value, slope;
+  L step_before_last = upper - lower, last_step = step_before_last, value, slope;
   L goes_on = all_lanes(T(1));
   RootLanes<T> root{x, L::Zero(), L::Zero()};
   for (int iteration = 1; iteration <= maximum_iterations && any<T>(goes_on); ++iteration) {
     function(x, value, slope);
     const L is_good = finite<T>(value);
-    const L is_zero = T(1) - less<T>(all_lanes(residual_tolerance), value.abs());
+    const L is_zero = T(1) - less<T>(all_lanes(options.residual_tolerance), value.abs());
     const L is_low = equal<T>(less<T>(value, L::Zero()), rising);
     const L low = choose<T>(is_low, x, lower), high = choose<T>(is_low, upper, x);
     const L newton = x - value / slope;
     const L newton_step = (newton - x).abs();
+    const L is_long =
+        less<T>(all_lanes(options.grid), newton_step).max(T(1) - equal<T>((x + large) - large, x));
     const L is_useful = finite<T>(newton) * less<T>(low, newton) * less<T>(newton, high) *
-                        (T(1) - less<T>(step_before_last.abs(), T(2) * newton_step) *
-                                    less<T>(all_lanes(grid), newton_step));
+                        (T(1) - less<T>(step_before_last.abs(), T(2) * newton_step) * is_long);
     const L next = choose<T>(is_useful, newton, low + (high - low) / T(2));
     const L step = next - x, length = step.abs();
     const L multiple = (next + large) - large;
-    const L fits = equal<T>(multiple, x).max(less<T>(low, multiple) * less<T>(multiple, high));
+    const L is_back = equal<T>(multiple, x) * is_useful;
+    const L fits = is_back.max(less<T>(low, multiple) * less<T>(multiple, high));
     const L next_x = choose<T>(fits, multiple, next);
-    L is_back = equal<T>(next_x, x);
-    if (1 < iteration) {
-      is_back = is_back.max(equal<T>(next_x, before) * (T(1) - less<T>(widest_back, length)));
-    }
-    const L is_short = T(1) - less<T>(T(2) * epsilon<T>() * x.abs(), length);
-    const L is_root = is_good * is_zero.max(is_short).max(fits * is_back);
+    const L is_short =
+        T(1) -
+        less<T>((T(2) * epsilon<T>() * x.abs()).max(all_lanes(options.step_tolerance)), length);
+    const L is_root = is_good * is_zero.max(is_short).max(is_back);
     root.position = choose<T>(goes_on, choose<T>(is_zero, x, next), root.position);
     root.iterations += goes_on;
     root.is_converged = choose<T>(goes_on, is_root, root.is_converged);
@@ -230,7 +230,6 @@ template <Real T, class Function>
     upper = choose<T>(goes_on, high, upper);
     step_before_last = choose<T>(goes_on, last_step, step_before_last);
     last_step = choose<T>(goes_on, step, last_step);
-    before = choose<T>(goes_on, x, before);
     x = choose<T>(goes_on, next_x, x);
   }
   return root;
