@@ -777,6 +777,47 @@ TEST_CASE("find_contact: a memory changes no bit of the result, whatever it was 
   CHECK(10 * brief_evaluations < 6 * cold_evaluations);
 }
 
+TEST_CASE("find_contact: in single precision a memory changes rounding only", "[contact][random]") {
+  const TangentTrack track(uic50<float>());
+  const Wheel real(s1002<float>(), 0.43F);
+  SearchMemory<float> memory(real);
+  std::mt19937_64 generator(5U);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  double lateral = 0, height = 0, yaw = 0, roll = 0;
+  int touching = 0, warm = 0, cold = 0;
+  for (int i = 0; i < 6000; ++i) {
+    if (i % 20 == 0) {
+      lateral = 0.75 + 0.008 * uniform(generator);
+      height = 0.4298 + 4e-4 * uniform(generator);
+      yaw = 0.02 * uniform(generator);
+      roll = 0.003 * uniform(generator);
+    }
+    lateral += 1e-5 * uniform(generator);
+    height += 1e-6 * uniform(generator);
+    const WheelsetPose::Point at{0.0, lateral, height};
+    const WheelsetPose::Point axle{-std::sin(yaw) * std::cos(roll), std::cos(yaw) * std::cos(roll),
+                                   std::sin(roll)};
+    const Vector3<float> wheel_track = vector_of<float>(at);
+    const auto placement = place_wheel(track.nearest_frame(Side::left, wheel_track), wheel_track,
+                                       vector_of<float>(axle));
+    const auto expected = find_contact(real, track.rail(Side::left), placement);
+    const auto found = find_contact(real, track.rail(Side::left), placement, memory);
+    CAPTURE(i, lateral, height, yaw, roll);
+    CHECK(found.status == expected.status);
+    CHECK(found.is_proved == expected.is_proved);
+    REQUIRE(found.patches.size() == expected.patches.size());
+    for (std::size_t k = 0; k < found.patches.size(); ++k) {
+      CHECK(std::abs(found.patches[k].penetration - expected.patches[k].penetration) <=
+            2 * epsilon<float>() * 0.43F);
+      ++touching;
+    }
+    cold += expected.evaluations;
+    warm += found.evaluations;
+  }
+  CHECK(touching > 2000);
+  CHECK(warm < cold);
+}
+
 TEST_CASE("find_contact: over a rail's convex corner the deepest point is that of both arcs",
           "[contact][reference]") {
   // Two arcs that meet at lateral 0 with slopes 0.05 and -0.05: inside both, a point is as deep as in

@@ -1,7 +1,7 @@
 #pragma once
 /// @file
-/// What a contact search may remember for the next one: a warm start that changes the time, never
-/// the answer. May include: core, numerics, profile, surface, contact/placement.
+/// What a contact search may remember for the next one: a warm start that changes the time, not the
+/// answer (find_contact). May include: core, numerics, profile, surface, contact/placement.
 ///
 /// The idea is that of neighbour lists in molecular dynamics (L. Verlet, Computer "experiments" on
 /// classical fluids I, Phys. Rev. 159 (1967) 98-103), carried on to the contacts. Until the wheel
@@ -38,7 +38,7 @@ struct RememberedPart {
 }  // namespace detail
 
 /// What a search on one wheel knows of its surroundings at some placement. Whatever it holds, in any
-/// order of poses, a search gives what a cold one gives. The caller owns it: one for each wheel on
+/// order of poses, a search gives what a cold one gives (in float, but for rounding). The caller owns it: one for each wheel on
 /// its rail, used by one search at a time.
 template <Real T>
 class SearchMemory {
