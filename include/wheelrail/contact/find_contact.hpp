@@ -586,7 +586,7 @@ template <Profile P, Profile R>
 /// The same with a warm start: the same patches to the last bit, whatever @p memory holds, in less
 /// time where the wheel stands nearly as in the search before. (Newton's method may end on another one
 /// of two multiples of its grid between which rounding decides: in float, where the penetration hardly
-/// varies and so is the same within 2 epsilon radii.) options.maximum_evaluations is of this search.
+/// varies and so is the same within 2 epsilon radii.) options.maximum_evaluations counts its own.
 /// @param memory made for this wheel, used on this rail; one search at a time may use it.
 template <Profile P, Profile R>
 [[nodiscard]] ContactResult<typename P::Scalar> find_contact(

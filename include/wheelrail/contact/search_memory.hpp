@@ -1,7 +1,8 @@
 #pragma once
 /// @file
 /// What a contact search may remember for the next one: a warm start that changes the time, not the
-/// answer (find_contact). May include: core, numerics, profile, surface, contact/placement.
+/// answer (in float, but for rounding). May include: core, numerics, profile, surface,
+/// contact/placement.
 ///
 /// The idea is that of neighbour lists in molecular dynamics (L. Verlet, Computer "experiments" on
 /// classical fluids I, Phys. Rev. 159 (1967) 98-103), carried on to the contacts. Until the wheel

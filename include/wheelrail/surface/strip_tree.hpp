@@ -92,9 +92,12 @@ struct StripNode {
 template <Real T>
 class StripTree {
  public:
-  /// A tree covers at most so many intervals between strips, or a sixteenth of all where that is more:
-  /// wider nodes mostly have parts that no line is below.
+  /// A tree covers at most so many intervals between strips: wider nodes mostly have parts that no line
+  /// is below.
   static constexpr int widest_tree = 16;
+  /// Where there are more than widest_tree * fewest_trees intervals, trees are wider: there need not be
+  /// more of them than about so many.
+  static constexpr int fewest_trees = 16;
 
   /// @param spacing strips are at most this far apart [m].
   /// @throws std::invalid_argument unless spacing is finite and > 0 and makes at most 100,000
@@ -132,9 +135,7 @@ class StripTree {
       }
     }
     leaves_.resize(strips_.size());
-    const int count = static_cast<int>(intervals.size());
-    widest_ = std::max(int{widest_tree}, count / 16);
-    build(intervals, 0, count, profile, nominal_radius);
+    build(intervals, 0, static_cast<int>(intervals.size()), profile, nominal_radius);
   }
 
   /// Not less than the radius of any strip [m].
@@ -208,7 +209,8 @@ class StripTree {
   template <Profile P>
   void build(const std::vector<Interval>& intervals, int begin, int end, const P& profile,
              const T& nominal_radius) {
-    if (widest_ < end - begin) {
+    const int count = static_cast<int>(intervals.size());
+    if (std::max(int{widest_tree}, count / fewest_trees) < end - begin) {
       const int at = split(intervals, begin, end);
       build(intervals, begin, at, profile, nominal_radius);
       build(intervals, at, end, profile, nominal_radius);
@@ -254,7 +256,6 @@ class StripTree {
   }
 
   T greatest_radius_;
-  int widest_ = 0;  // most intervals of a tree
   std::vector<Strip<T>> strips_;
   // Of the interval before each strip; then of the two from there on, of the four, and so on, as long
   // as there are so many; those over several pieces mean nothing.
